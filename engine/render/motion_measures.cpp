@@ -103,6 +103,12 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
         for (const float px : longest.value())
             path.px = std::max(path.px, double{px} * parts.count);
     }
+    const auto particles = extract::extractParticles(
+        world, view, extract::FrameView(world, view), extract::ParticleTime::Exposure
+    );
+    if (!particles)
+        return particles.error();
+    path.px = std::max(path.px, double{particles.value().longestWayPx});
     return path;
 }
 

@@ -173,6 +173,10 @@ class PostEffect {
     /// The rasters of the context are not there yet.
     [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
 
+    /// Whether particles are drawn over its picture, on their way through the exposure, and not
+    /// into the raster: whether or not it runs.
+    [[nodiscard]] virtual core::Decision askParticles(const ViewFacts&) const { return {}; }
+
     /// Computes what the effect's passes need of the world; called only when ask() said run, for
     /// all effects of the frame in their order, before any declares passes.
     virtual void extract(ExtractContext&) {}

@@ -2,6 +2,7 @@
 #include "engine/render/renderer.h"
 
 #include "engine/core/check.h"
+#include "engine/core/words.h"
 #include "engine/extract/demand.h"
 #include "engine/extract/instance_masks.h"
 #include "engine/gpu/vulkan.h"
@@ -56,17 +57,26 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
     explainer.decide(ExplainedKind::Work, "blending", surfaces.blending);
 }
 
+core::Decision decideParticles(const extract::ParticleTables& particles) {
+    if (particles.empty())
+        return {false, "none lives in the picture's time"};
+    const std::string count =
+        core::countOf(particles.rows.size(), "particle lives", "particles live");
+    return {true, count + (particles.isInstant ? " at its instant" : " in its exposure")};
+}
+
 } // namespace
 
 Renderer::Slot::Slot(gpu::Device& device)
     : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
       timedScene(device), secondRaster(device), lastRaster(device),
-      shadows(std::make_unique<ShadowMaps>(device)) {}
+      shadows(std::make_unique<ShadowMaps>(device)), particles(device) {}
 
 Renderer::Slot::~Slot() = default;
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
-    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
+    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene),
+      mParticlePass(device, mScene), mPool(device) {
     SHUTTER_CHECK(
         framesInFlight >= 1 && framesInFlight <= gpu::kMaxFramesInFlight,
         "{} frames in flight",
@@ -96,6 +106,38 @@ void Renderer::declareTlas(
     rays.tlas = levels.level;
     frame.constants.movingTlas = gpu::splitAddress(levels.movingTlas);
     mTlasMilliseconds = nowMilliseconds() - start;
+}
+
+core::Result<extract::ParticleTables> Renderer::extractParticles(
+    const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
+) const {
+    // Looks at motion see none, and effects keep nothing of what is drawn after them.
+    if (request.isLook || (running.particles.run && !request.wantPicture))
+        return extract::ParticleTables{};
+    return extract::extractParticles(
+        context.world,
+        request.view,
+        mExtractor.view(),
+        running.particles.run ? extract::ParticleTime::Exposure : extract::ParticleTime::Instant
+    );
+}
+
+graph::ImageHandle Renderer::declareParticles(
+    const FrameParts& parts,
+    const DeclaredScene& scene,
+    graph::ImageHandle color,
+    const math::dvec2& jitterPx
+) {
+    return mParticlePass.declare(
+        parts.graph,
+        parts.particles,
+        parts.slot.particles,
+        {.color = color,
+         .motionDepth = scene.gbuffer.motionDepth,
+         .frameConstants = scene.tables.constants,
+         .response = scene.tables.response,
+         .jitterPx = jitterPx}
+    );
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -169,11 +211,23 @@ core::Status Renderer::submitFrame(
         frame
     ));
     SHUTTER_TRY(extractForEffects(slot, context, running));
+    const auto particles = extractParticles(context, request, running);
+    if (!particles)
+        return particles.error();
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
     pending.tickets = declareFrame(
-        {slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer}
+        {slot,
+         graph,
+         request,
+         facts,
+         frame,
+         moving ? &*moving : nullptr,
+         particles.value(),
+         context.colorJitterPx,
+         running,
+         explainer}
     );
     if (request.wantTrace)
         SHUTTER_TRY(pending.trace.declare(graph, slot.readback, mPool.requirementFunction()));
@@ -239,7 +293,8 @@ FrameResult Renderer::finishFrame() {
 }
 
 Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
-    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
+    auto& [slot, graph, request, facts, frame, moving, particles, jitter, running, explainer] =
+        parts;
     DeclaredScene scene;
     explainer.beginPasses(graph, PassOwner::Scene, "a skin, morph target or wave is drawn");
     scene.shapes = slot.deformation->declare(graph, frame, mScene);
@@ -291,10 +346,15 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
         std::array{scene.shapes.buffer, rays.shadowBuffer},
         rays.frameConstants
     );
+    if (!running.particles.run && !particles.empty())
+        scene.gbuffer.color =
+            declareParticles(parts, scene, scene.gbuffer.color, request.view.jitterPx);
     return scene;
 }
 
-void Renderer::declareEffects(const FrameParts& parts, PostContext& context) {
+void Renderer::declareEffects(
+    const FrameParts& parts, const DeclaredScene& scene, PostContext& context
+) {
     Slot& slot = parts.slot;
     graph::Graph& graph = parts.graph;
     RunningEffects& running = parts.running;
@@ -304,6 +364,14 @@ void Renderer::declareEffects(const FrameParts& parts, PostContext& context) {
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;
+    const auto declareOwnParticles = [&](size_t effectsBefore) {
+        if (!running.particles.run || parts.particles.empty() ||
+            running.particlesAt != effectsBefore)
+            return;
+        explainer.beginPasses(graph, PassOwner::Blur, running.particles.reason);
+        context.color = declareParticles(parts, scene, context.color, parts.particleJitterPx);
+    };
+    declareOwnParticles(0);
     for (RunningEffect& one : running.effects) {
         // Not among the effect's own passes: what a frame takes now and then says nothing of the
         // frames to come, which a budget is about.
@@ -321,11 +389,13 @@ void Renderer::declareEffects(const FrameParts& parts, PostContext& context) {
         explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
         one.effect->declare(context);
         one.endPass = graph.passes().size();
+        declareOwnParticles(static_cast<size_t>(&one - running.effects.data()) + 1);
     }
 }
 
 Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
-    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
+    auto& [slot, graph, request, facts, frame, moving, particles, jitter, running, explainer] =
+        parts;
     const extract::ShadowPlan& shadows = slot.shadows->plan();
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
         mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
@@ -333,6 +403,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
         explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
         explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
+        explainer.decide(ExplainedKind::Work, "particles", decideParticles(particles));
     }
     const DeclaredScene scene = declareScene(parts);
     std::set<std::string> wanted = request.intermediates;
@@ -355,7 +426,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .frameConstants = scene.tables.constants,
         .explainer = explainer,
         .slot = mNextSlot};
-    declareEffects(parts, context);
+    declareEffects(parts, scene, context);
     explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
     Tickets tickets;
     tickets.semaphores = context.semaphores;

@@ -16,6 +16,7 @@
 #include "engine/render/gbuffer.h"
 #include "engine/render/longest_motion.h"
 #include "engine/render/other_raster.h"
+#include "engine/render/particles.h"
 #include "engine/render/pass_trace.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
@@ -169,7 +170,9 @@ class Renderer {
         core::Decision secondRaster;
         core::Decision lastRaster;
         core::Decision layer;
-        bool mayTrace = false; ///< in another frame, if not in this
+        bool mayTrace = false;    ///< in another frame, if not in this
+        core::Decision particles; ///< run: they are drawn on their way through the exposure ...
+        size_t particlesAt = 0;   ///< ... after as many of `effects`
     };
 
     /// What one frame in flight has of its own.
@@ -187,6 +190,7 @@ class Renderer {
         std::optional<OtherRaster> secondRaster;
         std::optional<OtherRaster> lastRaster;
         std::unique_ptr<ShadowMaps> shadows;
+        ParticleBuffer particles;
     };
 
     /// What a frame is declared from.
@@ -197,6 +201,8 @@ class Renderer {
         const ViewFacts& facts;
         extract::ExtractedFrame& frame;
         const extract::TimedTables* moving; ///< null: no ray has a time of its own
+        const extract::ParticleTables& particles;
+        math::dvec2 particleJitterPx; ///< of the colour that they are drawn on after effects
         RunningEffects& running;
         Explainer& explainer;
     };
@@ -248,10 +254,21 @@ class Renderer {
     /// of the world themselves.
     [[nodiscard]] core::Status
     extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running);
+    /// Extracts the particles that the frame draws.
+    [[nodiscard]] core::Result<extract::ParticleTables> extractParticles(
+        const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
+    ) const;
+    /// \return the picture with the frame's particles
+    graph::ImageHandle declareParticles(
+        const FrameParts& parts,
+        const DeclaredScene& scene,
+        graph::ImageHandle color,
+        const math::dvec2& jitterPx
+    );
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.
     DeclaredScene declareScene(const FrameParts& parts);
-    void declareEffects(const FrameParts& parts, PostContext& context);
+    void declareEffects(const FrameParts& parts, const DeclaredScene& scene, PostContext& context);
     static std::vector<PendingEffect> listPending(
         std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
@@ -270,6 +287,7 @@ class Renderer {
     gpu::Device& mDevice;
     gpu_scene::GpuScene mScene;
     GBufferPass mGBufferPass;
+    ParticlePass mParticlePass;
     graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
     extract::FrameExtractor mExtractor;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight

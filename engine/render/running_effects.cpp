@@ -41,6 +41,10 @@ Renderer::RunningEffects Renderer::askEffects(
         if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
             decision = {false, "it needs ray queries, which the device lacks"};
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
+        const core::Decision particles = effect->askParticles(facts);
+        join(running.particles, effect->name(), particles);
+        if (particles.run)
+            running.particlesAt = running.effects.size() + (decision.run ? 1 : 0);
         if (!decision.run)
             continue;
         if (!running.layer.run)

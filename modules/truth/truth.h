@@ -59,6 +59,11 @@ class Truth : public render::PostEffect {
         return {true, "every ray has its own time"};
     }
 
+    /// Its rays meet no particles.
+    [[nodiscard]] core::Decision askParticles(const render::ViewFacts&) const override {
+        return {true, "its rays meet none"};
+    }
+
     /// Publishes "error": the standard error per pixel and channel.
     void declare(render::PostContext& context) override;
     /// One frame at a time: the next may be declared once this was called.

@@ -3,6 +3,7 @@
 // with those before.
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
+#include "engine/scene/particle_emitter.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
@@ -182,10 +183,20 @@ struct Sequence {
 };
 
 Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
-    // The mover comes and goes, under a camera that moves.
+    // The mover comes and goes, under a camera that moves, and sparks fly.
     Crowd crowd(40);
     crowd.scene.moveCamera({.velocity = {0.1, 0, 0}});
     scene::World& world = crowd.scene.world;
+    const ecs::Entity sparks = world.registry.create();
+    math::Transform place;
+    place.translation = {0.0, 0.0, -2.0};
+    world.registry.add(sparks, scene::LocalTransform{place});
+    scene::ParticleEmitter emitter;
+    emitter.spans = {{.fromSeconds = -1.0, .untilSeconds = 1.0, .perSecond = 60.0}};
+    emitter.lifeSeconds = 0.3;
+    emitter.velocity = {0.0, 1.0, 0.0};
+    emitter.coneDegrees = 90.0;
+    world.registry.add(sparks, emitter);
     render::Renderer renderer(device, world.assets, framesInFlight);
     motion_blur::MotionBlurPlugin blur(
         device, renderer.scene(), {.method = &motion_blur::getMethod("hybrid")}

@@ -141,6 +141,12 @@ core::Decision MotionBlurPlugin::askLastRaster(const render::ExtractContext& con
     return {true, "the frame before left none"};
 }
 
+core::Decision MotionBlurPlugin::askParticles(const render::ViewFacts& facts) const {
+    if (!(facts.exposureSeconds > 0.0))
+        return {false, "the exposure is 0"};
+    return {true, "particles are drawn over its picture"};
+}
+
 void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->readsInstantMotions)
         mInstantMotions.extract(context, countInstants(settings()), settings().history);

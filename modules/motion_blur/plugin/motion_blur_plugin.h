@@ -65,6 +65,8 @@ class MotionBlurPlugin : public render::PostEffect {
     /// another size.
     [[nodiscard]] core::Decision askLastRaster(const render::ExtractContext& context
     ) const override;
+    /// Where there is an exposure, whether or not anything else moves in it.
+    [[nodiscard]] core::Decision askParticles(const render::ViewFacts& facts) const override;
     void extract(render::ExtractContext& context) override;
 
     void declare(render::PostContext& context) override;

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/particles.h"
+
+#include "engine/scene/motion.h"
+#include "engine/scene/particle_emitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat3;
+using math::dmat4;
+using math::dvec3;
+using scene::ParticleEmitter;
+
+/// Steps of the exposure between which the camera is taken to go straight: as far as a mover's
+/// vertices go between shutter open and close, divided by eight.
+constexpr uint32_t kMovingCameras = 9;
+
+/// What additive light may add up to without the picture's own: half floats end at 65504.
+constexpr double kSafeSum = 30000.0;
+
+/// The entity's name or number, for messages.
+std::string describeEntity(const scene::World& world, ecs::Entity entity) {
+    const auto* name = world.registry.find<scene::Name>(entity);
+    return name ? fmt::format("'{}'", name->value) : fmt::format("{}", entity);
+}
+
+/// How an emitter's own time runs, which the artist's scales stretch away from the raster instant
+/// (exposure_motion.h).
+struct OwnTime {
+    double raster = 0.0; ///< seconds, at the frame's raster instant
+    double speed = 1.0;
+
+    [[nodiscard]] double at(double seconds) const {
+        return speed == 1.0 ? seconds : raster + speed * (seconds - raster);
+    }
+};
+
+/// When an entity came to be: nothing of it is older.
+double findBeginning(const scene::World& world, ecs::Entity entity) {
+    double beginning = -std::numeric_limits<double>::infinity();
+    (void)scene::findUpwards(world, entity, [&](ecs::Entity at) {
+        if (const auto* appeared = world.registry.find<scene::Appeared>(at))
+            beginning = std::max(beginning, appeared->seconds);
+        return false;
+    });
+    return beginning;
+}
+
+/// Places the births of one emitter in the world.
+class BirthPlace {
+  public:
+    BirthPlace(const scene::World& world, ecs::Entity entity, double inherit)
+        : mWorld(world), mEntity(entity), mInherit(inherit) {
+        if (!scene::mayMove(world, entity))
+            mAlways = scene::worldFromEntity(world, entity, 0.0);
+    }
+
+    struct Placed {
+        dvec3 place{0.0};
+        dvec3 velocity{0.0};
+    };
+
+    [[nodiscard]] Placed place(const scene::ParticleBirth& birth) const {
+        const dmat4 matrix =
+            mAlways ? *mAlways : scene::worldFromEntity(mWorld, mEntity, birth.seconds);
+        Placed placed;
+        placed.place = dvec3(matrix * math::dvec4(birth.place, 1.0));
+        placed.velocity = dmat3(matrix) * birth.velocity;
+        if (!mAlways && mInherit != 0.0) {
+            // What is recorded is known up to the birth, not beyond.
+            constexpr double kStep = 1.0e-3;
+            const dmat4 before = scene::worldFromEntity(mWorld, mEntity, birth.seconds - kStep);
+            placed.velocity += (dvec3(matrix[3]) - dvec3(before[3])) * (mInherit / kStep);
+        }
+        return placed;
+    }
+
+  private:
+    const scene::World& mWorld;
+    ecs::Entity mEntity;
+    double mInherit;
+    std::optional<dmat4> mAlways; ///< nothing: it moves
+};
+
+bool isFinite(const dvec3& value) {
+    return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
+}
+
+/// A row and where it belongs among the others.
+struct SortedRow {
+    uint64_t key = 0; ///< rises from far to near; of equals, in the order of their emission
+    shader::ParticleRow row{};
+};
+
+/// Bits whose order is that of the numbers.
+uint32_t orderedBits(float value) {
+    uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+class Extraction {
+  public:
+    Extraction(
+        const scene::World& world,
+        const ViewRequest& request,
+        const FrameView& view,
+        ParticleTime time
+    )
+        : mWorld(world), mRequest(request), mView(view), mMotion(view.motion()),
+          mEye(view.matrices().eye), mForward(view.constants().forward) {
+        mTables.isInstant = time == ParticleTime::Instant || request.instant.has_value();
+        const double raster = view.times().raster;
+        mTables.rasterTime = static_cast<float>(raster);
+        mFirst = mTables.isInstant ? raster : 0.0;
+        mLast = mTables.isInstant ? raster : 1.0;
+    }
+
+    core::Status add(ecs::Entity entity, const ParticleEmitter& emitter) {
+        SHUTTER_TRY(check(entity, emitter));
+        if (mMotion.isHidden(entity))
+            return {};
+        const scene::ExposureInterval& exposure = mMotion.exposure();
+        const OwnTime own{exposure.frame().raster, mMotion.speedOf(entity)};
+        auto living =
+            scene::listLiving(emitter, own.at(secondsAt(mFirst)), own.at(secondsAt(mLast)));
+        if (!living)
+            return core::makeError(
+                "emitter {}: {}", describeEntity(mWorld, entity), living.error().message
+            );
+        if (living.value().empty())
+            return {};
+        const auto index = static_cast<uint32_t>(mTables.emitters.size());
+        mTables.emitters.push_back(makeEmitterRow(entity, emitter, own));
+        const double beginning = findBeginning(mWorld, entity);
+        const double raster = own.at(secondsAt(mView.times().raster));
+        const BirthPlace births(mWorld, entity, emitter.inherit);
+        for (const scene::ParticleBirth& birth : living.value())
+            if (birth.seconds >= beginning)
+                addRow(birth, births.place(birth), raster, index);
+        if (mRows.size() > scene::kMaxParticles)
+            return core::makeError(
+                "more than {} particles live at {} s, with those of emitter {}: emit fewer",
+                scene::kMaxParticles,
+                exposure.raster,
+                describeEntity(mWorld, entity)
+            );
+        return {};
+    }
+
+    ParticleTables finish() {
+        std::sort(mRows.begin(), mRows.end(), [](const SortedRow& a, const SortedRow& b) {
+            return a.key < b.key;
+        });
+        mTables.rows.reserve(mRows.size());
+        for (const SortedRow& sorted : mRows)
+            mTables.rows.push_back(sorted.row);
+        if (!mTables.empty())
+            addCameras();
+        if (!mTables.isInstant)
+            measureWays();
+        mTables.mayOverflow = mBrightest > kSafeSum;
+        return std::move(mTables);
+    }
+
+  private:
+    core::Status check(ecs::Entity entity, const ParticleEmitter& emitter) const {
+        if (const core::Status valid = scene::validateEmitter(emitter); !valid)
+            return core::makeError(
+                "emitter {}: {}", describeEntity(mWorld, entity), valid.error().message
+            );
+        const std::vector<scene::Texture>& textures = mWorld.assets.textures;
+        if (emitter.texture != scene::kNone &&
+            (emitter.texture >= textures.size() || !textures[emitter.texture].onParticles))
+            return core::makeError(
+                "emitter {}: texture {} is none that particles show",
+                describeEntity(mWorld, entity),
+                emitter.texture
+            );
+        return {};
+    }
+
+    [[nodiscard]] double secondsAt(double s) const {
+        const scene::ExposureInterval& exposure = mMotion.exposure();
+        return s == exposure.rasterTime ? exposure.raster : exposure.at(s);
+    }
+
+    shader::ParticleEmitterRow
+    makeEmitterRow(ecs::Entity entity, const ParticleEmitter& emitter, const OwnTime& own) const {
+        const scene::ExposureInterval& exposure = mMotion.exposure();
+        shader::ParticleEmitterRow row{};
+        row.gravityDrag = math::vec4(math::vec3(emitter.gravity), float(emitter.drag));
+        for (size_t i = 0; i < emitter.colors.size(); ++i)
+            row.colors[i] = emitter.colors[i];
+        row.sizes = {float(emitter.sizeBirth), float(emitter.sizeDeath)};
+        row.softMetres = float(emitter.softMetres);
+        row.secondsPerExposure = float(own.speed * (exposure.close - exposure.open));
+        const double camera = exposure.cap.camera;
+        const double screen = scene::findBlurScale(mWorld, entity) * exposure.cap.of(entity);
+        row.cameraShare = camera > 0.0 ? float(screen / camera) : 1.0f;
+        row.texture = shader::kNoParticleTexture;
+        if (emitter.texture != scene::kNone) {
+            const scene::Texture& texture = mWorld.assets.textures[emitter.texture];
+            const scene::TextureImage& image = mWorld.assets.images[texture.image];
+            row.texture = emitter.texture;
+            row.textureTexels = float(std::max(image.width, image.height));
+        }
+        row.flags = (emitter.blend == scene::ParticleBlend::Add ? shader::kParticleAdd : 0u) |
+                    (emitter.lit ? shader::kParticleLit : 0u);
+        return row;
+    }
+
+    void addRow(
+        const scene::ParticleBirth& birth,
+        const BirthPlace::Placed& placed,
+        double rasterSeconds,
+        uint32_t emitter
+    ) {
+        if (!isFinite(placed.place) || !isFinite(placed.velocity))
+            return; // as an entity whose transform is not finite has no row
+        const shader::ParticleEmitterRow& emitterRow = mTables.emitters[emitter];
+        SortedRow sorted;
+        shader::ParticleRow& row = sorted.row;
+        row.placeAge =
+            math::vec4(math::vec3(placed.place - mEye), float(rasterSeconds - birth.seconds));
+        row.velocityLife = math::vec4(math::vec3(placed.velocity), float(birth.lifeSeconds));
+        row.angle = float(birth.angle);
+        row.spin = float(birth.spin);
+        row.emitter = emitter;
+        const float age = std::clamp(row.placeAge.w, 0.0f, row.velocityLife.w);
+        const math::vec3 place = shader::particlePlace(row, emitterRow, age);
+        const float depth = glm::dot(place, math::vec3(mForward));
+        sorted.key = uint64_t(~orderedBits(depth)) << 32 | uint32_t(mRows.size());
+        if ((emitterRow.flags & shader::kParticleAdd) != 0)
+            for (const math::vec4& color : emitterRow.colors)
+                mBrightest += double(color.a) * double(std::max({color.r, color.g, color.b})) / 3.0;
+        mRows.push_back(sorted);
+    }
+
+    void addCameras() {
+        const FrameView& view = mView;
+        const auto& camera = mWorld.registry.get<scene::Camera>(mRequest.camera);
+        const bool moves = !mTables.isInstant && view.moves();
+        const uint32_t count = moves ? kMovingCameras : 1;
+        for (uint32_t i = 0; i < count; ++i) {
+            const double s = moves ? double(i) / (count - 1) : view.times().raster;
+            const dmat4 worldFromView = mMotion.worldFromCamera(s);
+            const dmat4 clipFromView = makeProjection(camera, mMotion.cameraYFov(s), mRequest);
+            // A difference of eyes, so that it is exact far from the world's origin.
+            const dmat4 viewFromEye = dmat4(dmat3(glm::inverse(worldFromView))) *
+                                      glm::translate(dmat4(1.0), mEye - dvec3(worldFromView[3]));
+            mTables.cameras.emplace_back(clipFromView * viewFromEye);
+        }
+    }
+
+    /// Where a particle is seen at shutter time s: pixels, and its radius; nothing: behind the
+    /// camera.
+    [[nodiscard]] std::optional<math::vec3> see(const shader::ParticleRow& row, float s) const {
+        const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
+        const float age = shader::particleAge(row, emitter, s, mTables.rasterTime);
+        const float step = mTables.rasterTime + emitter.cameraShare * (s - mTables.rasterTime);
+        const auto last = float(mTables.cameras.size() - 1);
+        const auto nearest = size_t(std::clamp(std::round(step * last), 0.0f, last));
+        const math::mat4& camera = mTables.cameras[nearest];
+        const math::vec4 clip = camera * math::vec4(shader::particlePlace(row, emitter, age), 1.0f);
+        if (!(clip.w > mForward.w))
+            return std::nullopt;
+        const math::vec2 half = 0.5f * math::vec2(float(mRequest.width), float(mRequest.height));
+        const float scale = glm::length(math::vec3(camera[0][0], camera[1][0], camera[2][0]));
+        const float radius =
+            0.5f * shader::particleSize(row, emitter, age) * scale / clip.w * half.x;
+        return math::vec3(math::vec2(clip) / clip.w * half, radius);
+    }
+
+    /// How far it goes, pixels, and its radius, where it is seen.
+    [[nodiscard]] std::optional<math::vec2> measureWay(const shader::ParticleRow& row) const {
+        const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
+        const math::vec2 alive =
+            shader::particleLifetime(row, emitter, mTables.rasterTime, 0.0f, 1.0f);
+        const auto first = see(row, alive.x);
+        const auto last = see(row, alive.y);
+        if (!first || !last || !(alive.x < alive.y))
+            return std::nullopt;
+        const float radius = std::max(first->z, last->z);
+        const math::vec2 half(float(mRequest.width) / 2.0f, float(mRequest.height) / 2.0f);
+        const math::vec2 nearest =
+            glm::min(glm::abs(math::vec2(*first)), glm::abs(math::vec2(*last)));
+        if (!(radius > 0.0f) || glm::any(glm::greaterThan(nearest, half + 1.5f * radius)))
+            return std::nullopt;
+        return math::vec2(glm::distance(math::vec2(*first), math::vec2(*last)), radius);
+    }
+
+    /// As many parts as the fastest picture needs instants, which are a quarter of its size apart.
+    void measureWays() {
+        float most = 1.0f;
+        for (const shader::ParticleRow& row : mTables.rows) {
+            const auto way = measureWay(row);
+            if (!way)
+                continue;
+            mTables.longestWayPx = std::max(mTables.longestWayPx, way->x);
+            const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
+            if (emitter.texture == shader::kNoParticleTexture)
+                continue;
+            const float radius = std::max(way->y, shader::kLeastParticleRadiusPx);
+            const float turned = std::abs(row.spin * emitter.secondsPerExposure) * radius;
+            most = std::max(most, std::ceil((way->x + turned) / (0.5f * radius)));
+        }
+        mTables.parts = uint32_t(std::min(most, float(shader::kMaxParticleParts)));
+    }
+
+    const scene::World& mWorld;
+    const ViewRequest& mRequest;
+    const FrameView& mView;
+    const scene::ExposureMotion& mMotion;
+    dvec3 mEye;
+    math::vec4 mForward;
+    double mFirst = 0.0; ///< shutter times
+    double mLast = 1.0;
+    double mBrightest = 0.0;
+    std::vector<SortedRow> mRows;
+    ParticleTables mTables;
+};
+
+} // namespace
+
+core::Result<ParticleTables> extractParticles(
+    const scene::World& world, const ViewRequest& request, const FrameView& view, ParticleTime time
+) {
+    Extraction extraction(world, request, view, time);
+    for (auto [entity, emitter] : world.registry.view<ParticleEmitter>())
+        SHUTTER_TRY(extraction.add(entity, emitter));
+    return extraction.finish();
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The particles of one picture as the tables that they are drawn from. Pure.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_view.h"
+#include "engine/math/math.h"
+#include "engine/scene/world.h"
+#include "shaders/common/particle_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Over which time particles are shown.
+enum class ParticleTime : uint8_t {
+    Instant,  ///< those that live at the raster instant, where they are then
+    Exposure, ///< all that live in the exposure, on their way
+};
+
+struct ParticleTables {
+    std::vector<shader::ParticleRow> rows;            ///< far to near
+    std::vector<shader::ParticleEmitterRow> emitters; ///< `texture` is an index of Assets::textures
+    std::vector<math::mat4> cameras;                  ///< as ParticleDraw::cameras
+    float rasterTime = 1.0f;
+    bool isInstant = true;
+    /// Parts of the exposure to be drawn one by one, in whose middle textures are shown; [1,
+    /// shader::kMaxParticleParts].
+    uint32_t parts = 1;
+    float longestWayPx = 0.0f; ///< of any that is seen, in the exposure
+    /// What they may add up to is more than the picture can hold.
+    bool mayOverflow = false;
+
+    [[nodiscard]] bool empty() const { return rows.empty(); }
+};
+
+/// \param view of the frame, made from `world` and `request`
+/// Error: an emitter that cannot be drawn, or more particles than scene::kMaxParticles.
+[[nodiscard]] core::Result<ParticleTables> extractParticles(
+    const scene::World& world, const ViewRequest& request, const FrameView& view, ParticleTime time
+);
+
+} // namespace shutter::extract

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What both stages of a draw of particles share.
+#ifndef SHUTTER_PARTICLE_GLSL
+#define SHUTTER_PARTICLE_GLSL
+
+#include "common/particle_shared.h"
+#include "common/shutter_response.glsl"
+#include "render/environment.glsl"
+#include "render/scene_bindings.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ParticleTable {
+    ParticleRow rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ParticleEmitterTable {
+    ParticleEmitterRow rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ParticleCameras {
+    mat4 clipFromEye[];
+};
+
+layout(push_constant, scalar) uniform Push { ParticleDraw draw; };
+
+/// Share of the light that is taken before s; a box takes it evenly.
+float lightBefore(float s) {
+    if ((draw.response.x | draw.response.y) == 0u) return s;
+    return cumulativeResponse(ResponseRef(draw.response), s);
+}
+
+/// A particle as the picture has it at one time.
+struct SeenParticle {
+    vec2 placePx;
+    float radiusPx;
+    float depth;   // metres along the raster's view
+    float clipW;   // not above FrameConstants::forward.w: behind the camera
+};
+
+/// Between two of the table's cameras the way is straight.
+SeenParticle seeParticle(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, float s) {
+    float age = particleAge(row, emitter, s, draw.rasterTime);
+    vec4 place = vec4(particlePlace(row, emitter, age), 1.0f);
+    ParticleCameras cameras = ParticleCameras(draw.cameras);
+    float step_ = draw.rasterTime + emitter.cameraShare * (s - draw.rasterTime);
+    float last = float(draw.cameraCount - 1u);
+    float at = step_ * last;
+    float first = clamp(floor(at), 0.0f, max(last - 1.0f, 0.0f));
+    mat4 camera = cameras.clipFromEye[uint(first)];
+    vec4 clip = camera * place;
+    if (draw.cameraCount > 1u)
+        clip = mix(clip, cameras.clipFromEye[uint(first) + 1u] * place, at - first);
+    SeenParticle seen;
+    seen.clipW = clip.w;
+    seen.depth = dot(place.xyz, frame.value.forward.xyz);
+    vec2 half_ = 0.5f * frame.value.sizePx;
+    float w = max(clip.w, frame.value.forward.w);
+    seen.placePx = (clip.xy / w + draw.jitter + 1.0f) * half_;
+    float scale = length(vec3(camera[0][0], camera[1][0], camera[2][0]));
+    seen.radiusPx = 0.5f * particleSize(row, emitter, age) * scale / w * half_.x;
+    return seen;
+}
+
+#endif

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+// Particles: where they are, what of them is seen, and that a streak is the mean of its instants.
+#include "engine/image/metrics.h"
+#include "engine/scene/particle_emitter.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+#include "tests/support/white_quads.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using math::dvec2;
+using math::dvec3;
+using math::vec4;
+using scene::ParticleEmitter;
+using test::SceneBuilder;
+using test::Shot;
+using test::Stage;
+
+class ParticleLaw : public test::GpuTest {};
+
+constexpr double kExposure = 0.1;
+
+/// One particle of that size, pixels, born at `seconds`.
+ParticleEmitter makeOne(double sizePx, const dvec3& velocity, double seconds = -1.0) {
+    ParticleEmitter emitter;
+    emitter.bursts = {{.seconds = seconds, .count = 1}};
+    emitter.lifeSeconds = 10.0;
+    emitter.velocity = velocity;
+    emitter.sizeBirth = emitter.sizeDeath = sizePx;
+    emitter.colors = {vec4(1.0f), vec4(1.0f), vec4(1.0f)};
+    return emitter;
+}
+
+/// One metre is one pixel, before black.
+struct PixelScene : SceneBuilder {
+    PixelScene() { setPixelView(64); }
+
+    ecs::Entity emit(const ParticleEmitter& emitter, const dvec3& position) {
+        const ecs::Entity entity = world.registry.create();
+        math::Transform transform;
+        transform.translation = position;
+        world.registry.add(entity, scene::LocalTransform{transform});
+        world.registry.add(entity, emitter);
+        return entity;
+    }
+};
+
+Shot makeShot(std::string_view method) {
+    return {
+        .method = method,
+        .exposureSeconds = kExposure,
+        .phase = scene::ShutterPhase::End,
+        .instants = 256};
+}
+
+double sumLight(const image::Image& picture) {
+    double sum = 0.0;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                sum += double(picture.at(x, y, c));
+    return sum;
+}
+
+/// Many that fall, slow down and change, some of which are born or die in the exposure.
+ParticleEmitter makeShower() {
+    ParticleEmitter emitter;
+    emitter.spans = {{.fromSeconds = -2.0, .untilSeconds = 2.0, .perSecond = 150.0}};
+    emitter.lifeSeconds = 0.25;
+    emitter.lifeSpread = 0.5;
+    emitter.velocity = dvec3(60.0, 90.0, 0.0);
+    emitter.coneDegrees = 60.0;
+    emitter.gravity = dvec3(0.0, -300.0, 0.0);
+    emitter.drag = 3.0;
+    emitter.sizeBirth = 8.0;
+    emitter.sizeDeath = 5.0;
+    emitter.colors = {vec4(1.0f, 0.9f, 0.4f, 1.0f), vec4(0.9f, 0.3f, 0.1f, 0.8f), vec4(0.0f)};
+    return emitter;
+}
+
+TEST_F(ParticleLaw, AreWhereTheClosedFormHasThemAtEveryTime) {
+    PixelScene scene;
+    ParticleEmitter emitter = makeOne(12.0, {20.0, 10.0, 0.0}, 0.0);
+    emitter.gravity = dvec3(0.0, -8.0, 0.0);
+    scene.emit(emitter, {-20.0, 0.0, -10.0});
+    Stage stage(device(), scene);
+    for (const double seconds : {0.25, 1.0, 1.5}) {
+        Shot shot = makeShot("sharp");
+        shot.seconds = seconds;
+        const dvec2 centroid = test::computeCentroid(stage.render(shot).color);
+        const double height = 10.0 * seconds - 4.0 * seconds * seconds;
+        EXPECT_NEAR(centroid.x, 48.0 - 20.0 + 20.0 * seconds, 0.05) << seconds;
+        EXPECT_NEAR(centroid.y, 32.0 - height, 0.05) << seconds;
+    }
+}
+
+TEST_F(ParticleLaw, AStreaksLightIsThatOfItsInstantsInEveryMethod) {
+    PixelScene scene;
+    scene.emit(makeOne(9.0, {300.0, 120.0, 0.0}, -0.15), {-30.0, -10.0, -10.0});
+    Stage stage(device(), scene);
+    const image::Image truth = stage.render(makeShot("accumulate")).color;
+    ASSERT_GT(sumLight(truth), 10.0);
+    for (const std::string_view method : test::listBlurMethods(device())) {
+        const image::Image blurred = stage.render(makeShot(method)).color;
+        EXPECT_NEAR(sumLight(blurred) / sumLight(truth), 1.0, 1e-3) << method;
+        EXPECT_GE(image::computePsnr(blurred, truth), 60.0) << method;
+    }
+}
+
+TEST_F(ParticleLaw, OneThatIsBornOrDiesInTheExposureIsSeenForItsShareOfIt) {
+    const auto measure = [&](double born, double life) {
+        PixelScene scene;
+        ParticleEmitter emitter = makeOne(12.0, {}, born);
+        emitter.lifeSeconds = life;
+        scene.emit(emitter, {0.0, 0.0, -10.0});
+        return sumLight(test::renderOnce(device(), scene, makeShot("resolved")).color);
+    };
+    const double all = measure(-1.0, 10.0);
+    ASSERT_GT(all, 10.0);
+    EXPECT_NEAR(measure(-0.025, 10.0) / all, 0.25, 1e-3);
+    EXPECT_NEAR(measure(-0.2, 0.13) / all, 0.3, 1e-3);
+    EXPECT_NEAR(measure(-0.06, 0.02) / all, 0.2, 1e-3);
+    EXPECT_EQ(measure(-0.3, 0.1), 0.0);
+    EXPECT_EQ(measure(0.1, 1.0), 0.0);
+}
+
+TEST_F(ParticleLaw, AShowerIsAsTheMeanOfManyInstantsHasIt) {
+    for (const scene::ParticleBlend blend :
+         {scene::ParticleBlend::Alpha, scene::ParticleBlend::Add}) {
+        PixelScene scene;
+        ParticleEmitter emitter = makeShower();
+        emitter.blend = blend;
+        scene.emit(emitter, {-10.0, -10.0, -10.0});
+        Stage stage(device(), scene);
+        for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle}) {
+            Shot shot = makeShot("resolved");
+            shot.shutter.response.shape = shape;
+            const image::Image blurred = stage.render(shot).color;
+            shot.method = "accumulate";
+            const image::Image truth = stage.render(shot).color;
+            shot.method = "sharp";
+            EXPECT_LE(image::computePsnr(stage.render(shot).color, truth), 32.0);
+            EXPECT_GE(image::computePsnr(blurred, truth), 45.0);
+            EXPECT_NEAR(sumLight(blurred) / sumLight(truth), 1.0, 0.03);
+        }
+    }
+}
+
+TEST_F(ParticleLaw, APictureDoesNotDependOnThoseBeforeItNorOnTheOrderOfEmitters) {
+    const auto addBoth = [](PixelScene& scene, bool swapped) {
+        for (const int i : {swapped ? 1 : 0, swapped ? 0 : 1}) {
+            ParticleEmitter emitter = makeShower();
+            emitter.seed = uint32_t(i);
+            scene.emit(emitter, {-10.0, 4.0 * i - 10.0, -10.0 - i});
+        }
+    };
+    PixelScene scene;
+    addBoth(scene, false);
+    Shot shot = makeShot("resolved");
+    shot.seconds = 0.35;
+    const image::Image alone = test::renderOnce(device(), scene, shot).color;
+    test::Frames frames(device(), scene);
+    for (int i = 0; i < 3; ++i) {
+        Shot before = shot;
+        before.seconds = 0.2 + 0.05 * i;
+        (void)frames.draw(before);
+    }
+    EXPECT_TRUE(test::sameBits(frames.draw(shot).color, alone));
+    PixelScene swapped;
+    addBoth(swapped, true);
+    EXPECT_TRUE(test::sameBits(test::renderOnce(device(), swapped, shot).color, alone));
+}
+
+TEST_F(ParticleLaw, MirroredAndReversedOnesGiveMirroredAndEqualPictures) {
+    const auto draw = [&](double side, double direction, scene::ShutterPhase phase) {
+        PixelScene scene;
+        ParticleEmitter emitter = makeOne(9.0, {direction * 300.0, 0.0, 0.0}, -2.0);
+        // At time 0 it is at its side's 4.
+        scene.emit(emitter, {side * 4.0 - direction * 600.0, 3.0, -10.0});
+        Shot shot = makeShot("resolved");
+        shot.phase = phase;
+        return test::renderOnce(device(), scene, shot).color;
+    };
+    using scene::ShutterPhase;
+    const image::Image right = draw(1.0, 1.0, ShutterPhase::End);
+    ASSERT_GT(sumLight(right), 5.0);
+    EXPECT_GE(image::computePsnr(test::mirror(draw(-1.0, -1.0, ShutterPhase::End)), right), 70.0);
+    EXPECT_GE(image::computePsnr(draw(1.0, -1.0, ShutterPhase::Start), right), 70.0);
+}
+
+TEST_F(ParticleLaw, ACameraThatPansBlursThemAsItDoesTheWorld) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.moveCamera({.angularVelocity = {0.0, 1.5, 0.0}});
+    const ecs::Entity entity = scene.world.registry.create();
+    math::Transform transform;
+    transform.translation = {0.3, 0.1, -4.0};
+    scene.world.registry.add(entity, scene::LocalTransform{transform});
+    ParticleEmitter emitter = makeOne(0.3, {});
+    scene.world.registry.add(entity, emitter);
+    Stage stage(device(), scene);
+    const image::Image truth = stage.render(makeShot("accumulate")).color;
+    const image::Image blurred = stage.render(makeShot("resolved")).color;
+    EXPECT_LE(image::computePsnr(stage.render(makeShot("sharp")).color, truth), 35.0);
+    EXPECT_GE(image::computePsnr(blurred, truth), 55.0);
+}
+
+TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {
+    PixelScene scene;
+    scene.addWaves(); // image 0
+    scene.world.assets.textures[0].onParticles = true;
+    ParticleEmitter emitter = makeOne(24.0, {200.0, 0.0, 0.0}, -0.1);
+    emitter.spin = 4.0;
+    emitter.texture = 0;
+    scene.emit(emitter, {-12.0, 0.0, -10.0});
+    Stage stage(device(), scene);
+    const image::Image truth = stage.render(makeShot("accumulate")).color;
+    const render::FrameResult blurred = stage.render(makeShot("resolved"));
+    EXPECT_EQ(test::countPasses(blurred, "particles"), 4u);
+    EXPECT_NEAR(sumLight(blurred.color) / sumLight(truth), 1.0, 0.01);
+    EXPECT_GE(image::computePsnr(blurred.color, truth), 25.0);
+    EXPECT_LE(image::computePsnr(stage.render(makeShot("sharp")).color, truth), 20.0);
+}
+
+TEST_F(ParticleLaw, WhatLiesBeforeThemHidesThem) {
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        PixelScene scene;
+        scene.add(
+            test::makeQuad(40, 40, scene.addColor({0.2f, 0.4f, 0.6f})), {.position = {0, 0, -5}}
+        );
+        const image::Image without = test::renderOnce(device(), scene, makeShot(method)).color;
+        scene.emit(makeOne(10.0, {50.0, 0.0, 0.0}), {-50.0, 0.0, -10.0});
+        EXPECT_TRUE(
+            test::sameBits(test::renderOnce(device(), scene, makeShot(method)).color, without)
+        ) << method;
+        scene.emit(makeOne(10.0, {50.0, 0.0, 0.0}), {-50.0, 0.0, -4.0});
+        EXPECT_FALSE(
+            test::sameBits(test::renderOnce(device(), scene, makeShot(method)).color, without)
+        ) << method;
+    }
+}
+
+TEST_F(ParticleLaw, SoftOnesFadeBeforeASurface) {
+    const auto measure = [&](double softMetres) {
+        PixelScene scene;
+        scene.add(test::makeQuad(60, 60, scene.addColor({0, 0, 0})), {.position = {0, 0, -10}});
+        ParticleEmitter emitter = makeOne(12.0, {});
+        emitter.softMetres = softMetres;
+        scene.emit(emitter, {0.0, 0.0, -9.0});
+        return sumLight(test::renderOnce(device(), scene, makeShot("sharp")).color);
+    };
+    const double hard = measure(0.0);
+    EXPECT_NEAR(measure(0.5) / hard, 1.0, 1e-3);
+    EXPECT_NEAR(measure(4.0) / hard, 0.25, 2e-3);
+}
+
+TEST_F(ParticleLaw, WithoutOpacityOrSizeOrALifeNoBitChangesAndNoPassRuns) {
+    PixelScene scene;
+    scene.add(
+        test::makeQuad(40, 40, scene.addColor({0.2f, 0.4f, 0.6f})), {.position = {0, 0, -50}}
+    );
+    const image::Image without = test::renderOnce(device(), scene, makeShot("resolved")).color;
+    ParticleEmitter emitter = makeShower();
+    emitter.spans[0].untilSeconds = -1.0;
+    const ecs::Entity entity = scene.emit(emitter, {0.0, 0.0, -10.0});
+    const render::FrameResult dead = test::renderOnce(device(), scene, makeShot("resolved"));
+    EXPECT_TRUE(test::sameBits(dead.color, without));
+    EXPECT_EQ(test::countPasses(dead, "particles"), 0u);
+    auto& component = scene.world.registry.get<ParticleEmitter>(entity);
+    component = makeShower();
+    component.colors = {vec4(1.0f, 1.0f, 1.0f, 0.0f), vec4(0.0f), vec4(0.0f)};
+    const render::FrameResult clear = test::renderOnce(device(), scene, makeShot("resolved"));
+    EXPECT_EQ(test::countPasses(clear, "particles"), 1u);
+    EXPECT_TRUE(test::sameBits(clear.color, without));
+    component = makeShower();
+    component.sizeBirth = component.sizeDeath = 0.0;
+    EXPECT_TRUE(
+        test::sameBits(test::renderOnce(device(), scene, makeShot("resolved")).color, without)
+    );
+}
+
+TEST_F(ParticleLaw, AnExposureOf0IsTheSharpPicture) {
+    PixelScene scene;
+    scene.emit(makeShower(), {-10.0, -10.0, -10.0});
+    Stage stage(device(), scene);
+    Shot shot = makeShot("sharp");
+    const image::Image sharp = stage.render(shot).color;
+    shot.exposureSeconds = 0.0;
+    shot.method = "resolved";
+    EXPECT_TRUE(test::sameBits(stage.render(shot).color, sharp));
+}
+
+TEST_F(ParticleLaw, OneThatStandsStillIsItsSharpPictureToAHalfStep) {
+    PixelScene scene;
+    scene.emit(makeOne(14.0, {}), {3.0, 2.0, -10.0});
+    Stage stage(device(), scene);
+    const image::Image sharp = stage.render(makeShot("sharp")).color;
+    const image::Image blurred = stage.render(makeShot("resolved")).color;
+    EXPECT_LE(
+        test::computeMaxDifferenceWhere(sharp, blurred, [](uint32_t, uint32_t) { return true; }),
+        1.0 / 1024.0
+    );
+}
+
+TEST_F(ParticleLaw, LightThatThePictureCannotHoldStaysFinite) {
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        PixelScene scene;
+        ParticleEmitter emitter = makeOne(20.0, {});
+        emitter.bursts[0].count = 200;
+        emitter.blend = scene::ParticleBlend::Add;
+        emitter.colors.fill(vec4(1000.0f, 1000.0f, 1000.0f, 1.0f));
+        scene.emit(emitter, {0.0, 0.0, -10.0});
+        const image::Image picture = test::renderOnce(device(), scene, makeShot(method)).color;
+        EXPECT_TRUE(test::allFinite(picture)) << method;
+        EXPECT_GE(picture.at(48, 32, 0), 60000.0f) << method;
+    }
+}
+
+TEST_F(ParticleLaw, LitOnesSendBackTheLightFromEverywhereAndOfLamps) {
+    PixelScene scene;
+    ParticleEmitter emitter = makeOne(20.0, {});
+    emitter.lit = true;
+    emitter.colors.fill(vec4(0.5f, 0.5f, 0.5f, 1.0f));
+    scene.emit(emitter, {0.5, -0.5, -10.0});
+    Shot shot = makeShot("sharp");
+    shot.ambient = math::vec3(0.8f);
+    EXPECT_NEAR(test::renderOnce(device(), scene, shot).color.at(48, 32, 1), 0.4f, 2e-3f);
+    scene.addSun({0.0, -1.0, 0.0}, 12.5663706f);
+    EXPECT_NEAR(test::renderOnce(device(), scene, shot).color.at(48, 32, 1), 0.9f, 4e-3f);
+}
+
+class ParticleRayLaw : public test::RayTest {};
+
+TEST_F(ParticleRayLaw, TruthShowsThemTooOverWhatItsRaysMeet) {
+    PixelScene scene;
+    scene.add(
+        test::makeQuad(60, 50, scene.addColor({0.1f, 0.3f, 0.2f})), {.position = {0, 0, -20}}
+    );
+    scene.emit(makeShower(), {-10.0, -10.0, -10.0});
+    Stage stage(device(), scene);
+    const image::Image accumulated = stage.render(makeShot("accumulate")).color;
+    EXPECT_GE(image::computePsnr(stage.render(makeShot("truth")).color, accumulated), 45.0);
+    Shot still = makeShot("truth");
+    still.exposureSeconds = 0.0;
+    still.instants = 16;
+    const image::Image rays = stage.render(still).color;
+    still.method = "sharp";
+    EXPECT_GE(image::computePsnr(rays, stage.render(still).color), 60.0);
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+// Particles as a picture's tables, and the formulas that shaders evaluate them by.
+#include "engine/extract/particles.h"
+#include "engine/scene/history.h"
+#include "engine/scene/particle_emitter.h"
+#include "engine/scene/recorded_motion.h"
+#include "tests/unit/extract/extraction_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shutter::extract {
+namespace {
+
+using math::dvec3;
+using math::vec2;
+using math::vec3;
+using math::vec4;
+
+class Particles : public Extraction {
+  protected:
+    Particles() {
+        emitter.spans = {{.fromSeconds = -5.0, .untilSeconds = 5.0, .perSecond = 40.0}};
+        emitter.velocity = dvec3(1.0, 2.0, 0.0);
+        emitter.coneDegrees = 40.0;
+        emitter.lifeSeconds = 0.8;
+        emitter.lifeSpread = 0.5;
+    }
+
+    ecs::Entity addEmitter(const dvec3& position, const scene::ParticleEmitter& component) {
+        const ecs::Entity entity = world.registry.create();
+        math::Transform transform;
+        transform.translation = position;
+        world.registry.add(entity, scene::LocalTransform{transform});
+        world.registry.add(entity, component);
+        return entity;
+    }
+
+    [[nodiscard]] core::Result<ParticleTables> tryExtract(ParticleTime time) const {
+        return extractParticles(world, request, FrameView(world, request), time);
+    }
+
+    [[nodiscard]] ParticleTables extractAll(ParticleTime time = ParticleTime::Exposure) const {
+        auto tables = tryExtract(time);
+        EXPECT_TRUE(tables.ok()) << tables.error().message;
+        return tables.ok() ? std::move(tables).value() : ParticleTables{};
+    }
+
+    static bool sameRows(const ParticleTables& a, const ParticleTables& b) {
+        return a.rows.size() == b.rows.size() &&
+               std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(a.rows[0])) == 0;
+    }
+
+    scene::ParticleEmitter emitter;
+};
+
+TEST_F(Particles, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
+    addEmitter({0, 0, -10}, emitter);
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    const ParticleTables alone = extractAll();
+    ASSERT_GT(alone.rows.size(), 20u);
+    for (const double seconds : {0.0, 36000.0, 1.0}) {
+        request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, seconds);
+        (void)extractAll();
+    }
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    EXPECT_TRUE(sameRows(extractAll(), alone));
+}
+
+TEST_F(Particles, LieFarToNearWhicheverEmitterCameFirst) {
+    emitter.velocity = dvec3(0.0, 0.0, 1.0);
+    emitter.coneDegrees = 180.0;
+    emitter.radius = 2.0;
+    addEmitter({0, 0, -10}, emitter);
+    scene::ParticleEmitter second = emitter;
+    second.seed = 1;
+    addEmitter({0, 0, -11}, second);
+    const ParticleTables tables = extractAll();
+    const auto depth = [&](const shader::ParticleRow& row) {
+        const float age = std::clamp(row.placeAge.w, 0.0f, row.velocityLife.w);
+        return -shader::particlePlace(row, tables.emitters[row.emitter], age).z;
+    };
+    ASSERT_GT(tables.rows.size(), 60u);
+    EXPECT_TRUE(std::is_sorted(
+        tables.rows.begin(),
+        tables.rows.end(),
+        [&](const auto& a, const auto& b) { return depth(a) > depth(b); }
+    ));
+    scene::World other;
+    std::swap(world.registry, other.registry);
+    camera = addCamera({});
+    request.camera = camera;
+    addEmitter({0, 0, -11}, second);
+    addEmitter({0, 0, -10}, emitter);
+    const ParticleTables permuted = extractAll();
+    ASSERT_EQ(permuted.rows.size(), tables.rows.size());
+    for (size_t i = 0; i < tables.rows.size(); ++i)
+        EXPECT_EQ(permuted.rows[i].placeAge, tables.rows[i].placeAge) << i;
+}
+
+TEST_F(Particles, AreBornWhereTheirEntityWasAndStayInTheWorld) {
+    emitter = {};
+    emitter.bursts = {{.seconds = 0.25, .count = 1}};
+    emitter.inherit = 0.5;
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    world.registry.add(entity, scene::LinearVelocity{dvec3(4.0, 0.0, 0.0)});
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 0.75);
+    const ParticleTables tables = extractAll();
+    ASSERT_EQ(tables.rows.size(), 1u);
+    const shader::ParticleRow& row = tables.rows[0];
+    EXPECT_NEAR(row.placeAge.x, 1.0f, 1e-5f);
+    EXPECT_NEAR(row.placeAge.w, 0.5f, 1e-6f);
+    EXPECT_NEAR(row.velocityLife.x, 2.0f, 1e-4f);
+    const vec3 now = shader::particlePlace(row, tables.emitters[0], 0.5f);
+    EXPECT_NEAR(now.x, 2.0f, 1e-4f);
+}
+
+TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
+    emitter = {};
+    emitter.lifeSeconds = 3.0;
+    emitter.bursts = {{.seconds = 0.5, .count = 1}};
+    const ecs::Entity carrier = world.registry.create();
+    world.registry.add(carrier, scene::LocalTransform{});
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    world.registry.add(entity, scene::Parent{carrier});
+    for (int step = 1; step <= 30; ++step) {
+        math::Transform pose;
+        pose.translation.x = 0.1 * step;
+        scene::recordMotion(world, carrier, pose, 0.1 * step);
+    }
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 3.0);
+    const ParticleTables tables = extractAll();
+    ASSERT_EQ(tables.rows.size(), 1u);
+    EXPECT_NEAR(tables.rows[0].placeAge.x, 0.5f, 1e-5f);
+}
+
+TEST_F(Particles, AnExcludedEmitterAndACutStandStill) {
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    EXPECT_GT(extractAll().emitters.at(0).secondsPerExposure, 0.0f);
+    world.registry.add(entity, scene::MotionBlur{.exclude = true});
+    EXPECT_EQ(extractAll().emitters.at(0).secondsPerExposure, 0.0f);
+    const size_t atInstant = extractAll(ParticleTime::Instant).rows.size();
+    EXPECT_EQ(extractAll().rows.size(), atInstant);
+    world.registry.get<scene::MotionBlur>(entity) = {};
+    EXPECT_GT(extractAll().rows.size(), atInstant);
+    scene::cut(world, camera, 2.0);
+    EXPECT_EQ(extractAll().rows.size(), atInstant);
+}
+
+TEST_F(Particles, OfHiddenEmittersAndFromBeforeTheyAppearedAreNotThere) {
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    const size_t all = extractAll().rows.size();
+    scene::appear(world, entity, 1.9);
+    const size_t recent = extractAll().rows.size();
+    EXPECT_LT(recent, all);
+    EXPECT_GT(recent, 0u);
+    scene::hide(world, entity);
+    EXPECT_TRUE(extractAll().empty());
+}
+
+TEST_F(Particles, MoreThanAPictureShowsAreRefusedByTheEmittersName) {
+    emitter.spans[0].perSecond = 60000.0;
+    emitter.lifeSpread = 0.0;
+    emitter.lifeSeconds = 1.0;
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.01}, 2.0);
+    addEmitter({0, 0, -10}, emitter);
+    EXPECT_TRUE(tryExtract(ParticleTime::Exposure).ok());
+    const ecs::Entity second = addEmitter({0, 0, -10}, emitter);
+    world.registry.add(second, scene::Name{"geyser"});
+    const auto refused = tryExtract(ParticleTime::Exposure);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("65536"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("'geyser'"), std::string::npos);
+}
+
+TEST_F(Particles, BadEmittersAreRefusedByName) {
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    world.registry.add(entity, scene::Name{"chimney"});
+    const auto expectRefused = [&](const char* part) {
+        const auto refused = tryExtract(ParticleTime::Instant);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_NE(refused.error().message.find("'chimney'"), std::string::npos);
+        EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+    };
+    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
+    component.texture = 0;
+    expectRefused("texture 0");
+    component = emitter;
+    component.lifeSeconds = std::numeric_limits<double>::quiet_NaN();
+    expectRefused("lifeSeconds");
+}
+
+TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
+    world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
+    world.assets.textures.push_back({.image = 0, .onParticles = true});
+    emitter = {};
+    emitter.bursts = {{.seconds = 1.95, .count = 1}};
+    emitter.sizeBirth = emitter.sizeDeath = 1.0;
+    emitter.texture = 0;
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.1);
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    const auto countParts = [&](double metresInTheExposure) {
+        world.registry.get<scene::ParticleEmitter>(entity).velocity.x = metresInTheExposure / 0.1;
+        return extractAll().parts;
+    };
+    EXPECT_EQ(countParts(0.0), 1u);
+    EXPECT_EQ(countParts(0.24), 1u);
+    EXPECT_EQ(countParts(0.26), 2u);
+    EXPECT_EQ(countParts(0.74), 3u);
+    EXPECT_EQ(countParts(9.0), shader::kMaxParticleParts);
+    world.registry.get<scene::ParticleEmitter>(entity).texture = scene::kNone;
+    EXPECT_EQ(countParts(9.0), 1u) << "streaks need none";
+}
+
+shader::ParticleRow makeRow(const vec3& velocity) {
+    shader::ParticleRow row{};
+    row.velocityLife = vec4(velocity, 4.0f);
+    return row;
+}
+
+TEST(ParticleFormulas, PlacesAreWhatSmallStepsOfGravityAndDragComeTo) {
+    const shader::ParticleRow row = makeRow({3.0f, 5.0f, -1.0f});
+    for (const double drag : {0.0, 1e-6, 0.01, 0.3, 2.0, 40.0}) {
+        shader::ParticleEmitterRow emitter{};
+        emitter.gravityDrag = vec4(0.5f, -9.81f, 0.0f, float(drag));
+        dvec3 place(0.0);
+        dvec3 velocity(row.velocityLife);
+        constexpr int kSteps = 200000;
+        const double step = 2.0 / kSteps;
+        for (int i = 0; i < kSteps; ++i) {
+            const dvec3 middle = velocity + 0.5 * step * (dvec3(0.5, -9.81, 0.0) - drag * velocity);
+            velocity += step * (dvec3(0.5, -9.81, 0.0) - drag * middle);
+            place += step * middle;
+        }
+        const vec3 computed = shader::particlePlace(row, emitter, 2.0f);
+        EXPECT_LT(glm::distance(dvec3(computed), place), 2e-5 * (1.0 + glm::length(place))) << drag;
+        const vec3 speed = shader::particleVelocity(row, emitter, 2.0f);
+        EXPECT_LT(glm::distance(dvec3(speed), velocity), 2e-5 * (1.0 + glm::length(velocity)));
+    }
+}
+
+TEST(ParticleFormulas, TheSeriesOfSmallDragMeetsTheFormulaOfLarge) {
+    for (const float x : {0.499999f, 0.5f}) {
+        const vec2 shares = shader::dampedShares(x);
+        const double first = -std::expm1(-double(x)) / double(x);
+        EXPECT_NEAR(shares.x, first, 2e-7);
+        EXPECT_NEAR(shares.y, (1.0 - first) / double(x), 1e-6);
+    }
+    EXPECT_EQ(shader::dampedShares(0.0f), vec2(1.0f, 0.5f));
+}
+
+/// Mean of the profile at many instants.
+double measureStreak(const vec2& point, const vec2& way, float radius) {
+    constexpr int kInstants = 4096;
+    double sum = 0.0;
+    for (int i = 0; i < kInstants; ++i) {
+        const vec2 apart = (point - way * ((float(i) + 0.5f) / kInstants)) / radius;
+        sum += double(shader::roundProfile(glm::dot(apart, apart)));
+    }
+    return sum / kInstants;
+}
+
+TEST(ParticleFormulas, AStreakIsTheMeanOfTheRoundParticleAtAllInstants) {
+    for (const vec2& way : {vec2(0.0f), vec2(0.02f, 0.0f), vec2(3.0f, 1.0f), vec2(-20.0f, 35.0f)})
+        for (const float radius : {1.0f, 2.5f, 12.0f})
+            for (float y = -14.5f; y < 40.0f; y += 3.7f)
+                for (float x = -30.5f; x < 16.0f; x += 2.9f) {
+                    const vec2 covered = shader::streakCoverage({x, y}, way, radius);
+                    EXPECT_NEAR(covered.x, measureStreak({x, y}, way, radius), 4e-5)
+                        << x << ", " << y << " of " << way.x << ", " << way.y;
+                    EXPECT_GE(covered.y, 0.0f);
+                    EXPECT_LE(covered.y, 1.0f);
+                }
+}
+
+TEST(ParticleFormulas, ALifeIsCutToTheExposure) {
+    shader::ParticleRow row = makeRow({});
+    row.placeAge.w = 1.0f;
+    row.velocityLife.w = 1.5f;
+    shader::ParticleEmitterRow emitter{};
+    emitter.secondsPerExposure = 4.0f;
+    EXPECT_EQ(shader::particleLifetime(row, emitter, 1.0f, 0.0f, 1.0f), vec2(0.75f, 1.0f));
+    EXPECT_EQ(shader::particleLifetime(row, emitter, 0.5f, 0.0f, 1.0f), vec2(0.25f, 0.625f));
+    emitter.secondsPerExposure = 0.0f;
+    EXPECT_EQ(shader::particleLifetime(row, emitter, 1.0f, 0.0f, 1.0f), vec2(0.0f, 1.0f));
+    row.placeAge.w = 2.0f;
+    const vec2 dead = shader::particleLifetime(row, emitter, 1.0f, 0.0f, 1.0f);
+    EXPECT_GE(dead.x, dead.y);
+}
+
+} // namespace
+} // namespace shutter::extract
