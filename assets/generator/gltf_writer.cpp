@@ -262,6 +262,9 @@ Index GltfWriter::addNode(const NodeDesc& node) {
     if (!node.waves.is_null()) {
         entry["extras"]["vertexWaves"] = node.waves;
     }
+    if (!node.particles.is_null()) {
+        entry["extras"]["particles"] = node.particles;
+    }
     if (node.camera != kNothing) {
         entry["camera"] = node.camera;
     }

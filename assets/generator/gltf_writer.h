@@ -58,7 +58,8 @@ struct NodeDesc {
     Index light = kNothing;
     std::optional<glm::vec3> linearVelocity{};  ///< m/s, node space
     std::optional<glm::vec3> angularVelocity{}; ///< rad/s, node space, about the node's origin
-    nlohmann::json waves{}; ///< extras.vertexWaves (engine/gltf/README.md); null: none
+    nlohmann::json waves{};     ///< extras.vertexWaves (engine/gltf/README.md); null: none
+    nlohmann::json particles{}; ///< extras.particles, likewise
 };
 
 /// Collects one scene and writes it as a single binary glTF 2.0 file.

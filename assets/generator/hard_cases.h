@@ -57,4 +57,9 @@ struct BenchCase {
 [[nodiscard]] GltfWriter buildBehindGlassCase();
 [[nodiscard]] GltfWriter buildGlassCarriageCase();
 
+// Of particles, likewise seen at the cases' time: nothing else moves, so they are not in the list.
+[[nodiscard]] GltfWriter buildSparksCase();
+[[nodiscard]] GltfWriter buildSmokeCase();
+[[nodiscard]] GltfWriter buildAdditiveSparksCase();
+
 } // namespace shutter::generator

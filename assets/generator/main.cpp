@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shutter_generate_assets [--all] OUT_DIR: writes OUT_DIR/vase.glb, OUT_DIR/courtyard.glb and those
-// of the gameplay demos; with --all also OUT_DIR/NAME.glb for each of the hard cases.
+// of the gameplay demos; with --all also OUT_DIR/NAME.glb for each of the hard cases and those of
+// particles.
 // Exit status 0 done, 1 failed, 2 wrong usage.
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/hard_cases.h"
@@ -35,6 +36,9 @@ std::vector<Output> listOutputs(bool all) {
         for (const BenchCase& hardCase : listHardCases()) {
             outputs.push_back({hardCase.name, hardCase.build});
         }
+        outputs.push_back({"sparks", &buildSparksCase});
+        outputs.push_back({"smoke", &buildSmokeCase});
+        outputs.push_back({"additive_sparks", &buildAdditiveSparksCase});
     }
     return outputs;
 }

@@ -39,7 +39,24 @@ Picture paint(int width, int height, const Painter& painter) {
     return picture;
 }
 
+void paintAlpha(Picture& picture, const AlphaPainter& painter) {
+    const glm::vec2 size(picture.width, picture.height);
+    picture.alpha.clear();
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            picture.alpha.push_back(toByte(painter((glm::vec2(x, y) + 0.5f) / size)));
+}
+
 std::vector<uint8_t> encodePng(const Picture& picture) {
+    const size_t channels = picture.alpha.empty() ? 3 : 4;
+    std::vector<uint8_t> pixels = picture.rgb;
+    if (!picture.alpha.empty()) {
+        pixels.clear();
+        for (size_t i = 0; i < picture.alpha.size(); ++i) {
+            pixels.insert(pixels.end(), &picture.rgb[3 * i], &picture.rgb[3 * i] + 3);
+            pixels.push_back(picture.alpha[i]);
+        }
+    }
     std::vector<uint8_t> bytes;
     const auto append = [](void* context, void* data, int size) {
         auto& out = *static_cast<std::vector<uint8_t>*>(context);
@@ -47,7 +64,13 @@ std::vector<uint8_t> encodePng(const Picture& picture) {
         out.insert(out.end(), first, first + size);
     };
     const int written = stbi_write_png_to_func(
-        append, &bytes, picture.width, picture.height, 3, picture.rgb.data(), picture.width * 3
+        append,
+        &bytes,
+        picture.width,
+        picture.height,
+        static_cast<int>(channels),
+        pixels.data(),
+        picture.width * static_cast<int>(channels)
     );
     if (written == 0) {
         bytes.clear();

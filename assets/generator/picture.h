@@ -14,10 +14,17 @@ struct Picture {
     int width = 0;  ///< pixels
     int height = 0; ///< pixels
     std::vector<uint8_t> rgb;
+    std::vector<uint8_t> alpha{}; ///< linear, one a pixel; empty: all is opaque
 };
 
 /// Colour (sRGB-coded, [0, 1]; clamped) at a texture coordinate in [0, 1)^2, v downwards.
 using Painter = std::function<glm::vec3(glm::vec2 uv)>;
+
+/// Opacity, [0, 1], likewise.
+using AlphaPainter = std::function<float(glm::vec2 uv)>;
+
+/// Fills `alpha`.
+void paintAlpha(Picture& picture, const AlphaPainter& painter);
 
 /// Averages four evaluations a pixel, so that edges in `painter` need no filtering of their own.
 [[nodiscard]] Picture paint(int width, int height, const Painter& painter);

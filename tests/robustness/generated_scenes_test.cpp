@@ -5,6 +5,7 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
+#include "engine/scene/particle_emitter.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -102,6 +103,30 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(listHardCases().begin(), listHardCases().end()),
     [](const auto& test) { return std::string(test.param.name); }
 );
+
+TEST(ParticleCases, LoadWithoutAWarningAndEmitAsManyAsTheirNamesPromise) {
+    struct Promise {
+        const char* name;
+        GltfWriter (*build)();
+        size_t least;
+        size_t most;
+    };
+
+    for (const Promise& promise :
+         {Promise{"sparks", &buildSparksCase, 70, 100},
+          Promise{"smoke", &buildSmokeCase, 35, 50},
+          Promise{"additive_sparks", &buildAdditiveSparksCase, 270, 330}}) {
+        const scene::World world = writeAndLoad(promise.name, promise.build());
+        size_t living = 0;
+        for (const auto& [entity, emitter] : world.registry.view<scene::ParticleEmitter>())
+            living +=
+                scene::listLiving(emitter, kCaseSeconds - 2.0 * kCaseExposureSeconds, kCaseSeconds)
+                    .value()
+                    .size();
+        EXPECT_GE(living, promise.least) << promise.name;
+        EXPECT_LE(living, promise.most) << promise.name;
+    }
+}
 
 TEST(ScalingScenes, HoldAsManyMovingEntitiesAsAskedFor) {
     for (const int count : {1, 2, 10, 101, 10'000}) {
