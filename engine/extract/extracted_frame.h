@@ -41,6 +41,7 @@ struct SceneLayout {
         uint32_t vertexCount = 0;
         /// Of the same triangles from the last to the first, for blended geometries.
         uint32_t firstReversed = 0;
+        bool premultiplies = false; ///< blended, and not scene::BlendMode::Over
     };
 
     std::vector<uint32_t> firstGeometry;   ///< one per mesh, and one past the last

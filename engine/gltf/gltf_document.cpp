@@ -33,6 +33,7 @@ constexpr std::array kSupportedExtensions = {
     std::string_view("KHR_mesh_quantization"),
     std::string_view("KHR_physics_rigid_bodies"),
     std::string_view("KHR_texture_transform"),
+    std::string_view("OMI_materials_blend"),
 };
 
 uint32_t readU32(std::span<const uint8_t> bytes, size_t offset) {

@@ -4,6 +4,7 @@
 #include "engine/io/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -201,9 +202,43 @@ class MaterialReader {
         } else if (mSource.alphaMode != "OPAQUE") {
             failGltf("{}.alphaMode '{}' is unknown", mPath, mSource.alphaMode);
         }
+        readBlend(material);
         // A cutoff above 1 is valid and hides the whole surface.
         constexpr double kMaxCutoff = 1e6;
         material.alphaCutoff = clamped(mSource.alphaCutoff, 0.0, kMaxCutoff, "alphaCutoff");
+    }
+
+    /// OMI_materials_blend (a draft): its mode stands before the material's own.
+    void readBlend(scene::Material& material) {
+        const std::string extension = "OMI_materials_blend";
+        const auto* object = findExtension(mSource.extensions, extension);
+        if (object == nullptr)
+            return;
+        const std::string at = mPath + ".extensions." + extension;
+        constexpr std::array kRead{
+            scene::BlendMode::Over, scene::BlendMode::Add, scene::BlendMode::Premultiplied};
+        const auto mode = findName(
+            *object,
+            "alphaMode",
+            {"BLEND",
+             "ADD",
+             "PREMULT",
+             "HASH",
+             "MULTIPLY",
+             "SUBTRACT",
+             "REV_SUBTRACT",
+             "MAX",
+             "MIN"},
+            at
+        );
+        if (!mode || *mode >= kRead.size()) {
+            mContext.warnings.add(
+                fmt::format("{} has no alphaMode that is read: the material's own is used", at)
+            );
+            return;
+        }
+        material.blendMode = kRead[*mode];
+        material.alphaMode = scene::AlphaMode::Blend;
     }
 
     GltfContext& mContext;

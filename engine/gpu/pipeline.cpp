@@ -110,7 +110,7 @@ VkPipelineColorBlendAttachmentState makeBlend(Blend blend) {
 
 std::vector<VkPipelineColorBlendAttachmentState> makeBlends(size_t targets, Blend blend) {
     std::vector<VkPipelineColorBlendAttachmentState> states(targets, makeBlend(blend));
-    if (blend == Blend::Over)
+    if (blend == Blend::Over || blend == Blend::Premultiplied)
         for (size_t i = 1; i < targets; ++i)
             states[i] = {}; // not written
     return states;

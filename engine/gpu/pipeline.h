@@ -47,7 +47,7 @@ enum class Blend : uint8_t {
     /// All attachments, nearest first: premultiplied colours are added by the transmittance that
     /// alpha holds so far, and alpha is multiplied by what the surface lets through.
     Under,
-    Premultiplied, ///< over, all attachments, with premultiplied colours; what alpha was stays
+    Premultiplied, ///< over, with premultiplied colours; what alpha was stays; attachment 0 alone
     /// The same, and alpha is multiplied by what is let through.
     PremultipliedLayer,
     AlphaOnly, ///< alpha of all attachments is replaced, colours stay

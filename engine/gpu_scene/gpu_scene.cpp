@@ -52,6 +52,18 @@ uint32_t bindlessIndex(const scene::TextureSlot& slot, bool srgb) {
     return slot.texture == scene::kNone ? shader::kNoTexture : 2 * slot.texture + (srgb ? 0 : 1);
 }
 
+uint32_t blendFlagsOf(scene::BlendMode mode) {
+    switch (mode) {
+    case scene::BlendMode::Over:
+        return shader::kMaterialBlend;
+    case scene::BlendMode::Add:
+        return shader::kMaterialBlend | shader::kMaterialAdd;
+    case scene::BlendMode::Premultiplied:
+        return shader::kMaterialBlend | shader::kMaterialPremultiplied;
+    }
+    return shader::kMaterialBlend;
+}
+
 shader::MaterialRow packMaterial(const scene::Material& material) {
     shader::MaterialRow row{};
     row.baseColor = material.baseColorFactor;
@@ -64,7 +76,7 @@ shader::MaterialRow packMaterial(const scene::Material& material) {
     row.flags = (material.unlit ? shader::kMaterialUnlit : 0u) |
                 (material.doubleSided ? shader::kMaterialDoubleSided : 0u) |
                 (material.alphaMode == AlphaMode::Mask ? shader::kMaterialMask : 0u) |
-                (material.alphaMode == AlphaMode::Blend ? shader::kMaterialBlend : 0u);
+                (material.alphaMode == AlphaMode::Blend ? blendFlagsOf(material.blendMode) : 0u);
     const auto pack = [](const scene::TextureSlot& slot, bool srgb) {
         return packSlot(slot, bindlessIndex(slot, srgb));
     };
@@ -161,7 +173,8 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
                  material.alphaMode,
                  material.doubleSided,
                  row.vertexCount,
-                 row.firstIndex + row.indexCount}
+                 row.firstIndex + row.indexCount,
+                 material.blendMode != scene::BlendMode::Over}
             );
             mLayout.hasBlended = mLayout.hasBlended || material.alphaMode == AlphaMode::Blend;
             mFirstVertex.push_back(static_cast<uint32_t>(vertices.size()));

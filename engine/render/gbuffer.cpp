@@ -24,6 +24,13 @@ constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 using Variant = GBufferPass::Variant;
 
+/// kBlend of gbuffer.frag.
+uint32_t blendConstantOf(Variant variant) {
+    if (variant == Variant::Blended)
+        return 1;
+    return variant == Variant::Premultiplied ? 2 : 0;
+}
+
 gpu::GraphicsPipelineDesc
 describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) {
     gpu::GraphicsPipelineDesc desc;
@@ -32,11 +39,14 @@ describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) 
     desc.fragmentSpirv = render_gbuffer_frag;
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
-    desc.specialization = {variant == Variant::Masked, variant == Variant::Blended, moves};
+    desc.specialization = {variant == Variant::Masked, blendConstantOf(variant), moves};
     desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
-    desc.depthWrite = variant != Variant::Blended;
-    desc.blend = variant == Variant::Blended ? gpu::Blend::Over : gpu::Blend::None;
+    desc.depthWrite = blendConstantOf(variant) == 0;
+    if (variant == Variant::Blended)
+        desc.blend = gpu::Blend::Over;
+    if (variant == Variant::Premultiplied)
+        desc.blend = gpu::Blend::Premultiplied;
     return desc;
 }
 
@@ -130,7 +140,8 @@ GBufferPass::Pipelines::Pipelines(
 
 GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : mOpaque(device, scene, Variant::Opaque), mMasked(device, scene, Variant::Masked),
-      mBlended(device, scene, Variant::Blended), mSky(device, describeSky(scene)) {}
+      mBlended(device, scene, Variant::Blended),
+      mPremultiplied(device, scene, Variant::Premultiplied), mSky(device, describeSky(scene)) {}
 
 GBuffer GBufferPass::declare(
     graph::Graph& graph,
@@ -178,7 +189,11 @@ GBuffer GBufferPass::declare(
             recorder.drawScreen();
             frame.blended.forEach([&](const extract::DrawItem& item) {
                 if (!frame.isInLayer(item.entity))
-                    recorder.draw(mBlended, item);
+                    recorder.draw(
+                        scene.layout().geometries[item.geometry].premultiplies ? mPremultiplied
+                                                                               : mBlended,
+                        item
+                    );
             });
         }
     );

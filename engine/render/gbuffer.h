@@ -25,7 +25,7 @@ struct GBuffer {
 /// The pipelines of the G-buffer; one a scene (they know its texture table).
 class GBufferPass {
   public:
-    enum class Variant : uint8_t { Opaque, Masked, Blended };
+    enum class Variant : uint8_t { Opaque, Masked, Blended, Premultiplied };
 
     /// The pipelines of one variant.
     struct Pipelines {
@@ -53,6 +53,7 @@ class GBufferPass {
     Pipelines mOpaque;
     Pipelines mMasked;
     Pipelines mBlended;
+    Pipelines mPremultiplied;
     gpu::Pipeline mSky;
 };
 

@@ -81,6 +81,13 @@ struct TextureSlot {
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 
+/// How a surface of AlphaMode::Blend joins what lies behind it.
+enum class BlendMode : uint8_t {
+    Over,
+    Add,           ///< adds colour times alpha, hides nothing
+    Premultiplied, ///< over, with a colour that was multiplied by alpha
+};
+
 /// glTF metallic-roughness, KHR_materials_unlit, KHR_materials_emissive_strength.
 struct Material {
     std::string name;
@@ -92,6 +99,7 @@ struct Material {
     math::vec3 emissive{0.0f};      ///< factor times strength, linear
     float alphaCutoff = 0.5f;       ///< Mask only: covered where alpha >= cutoff
     AlphaMode alphaMode = AlphaMode::Opaque;
+    BlendMode blendMode = BlendMode::Over;
     bool doubleSided = false;
     bool unlit = false;
     TextureSlot baseColor;         ///< sRGB

@@ -60,7 +60,7 @@ void main() {
         frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame),
         ShadowSource(true, 0u, draw.entity, moversOfTile(frame, inRaster))
     );
-    float alpha = saturate(surface.alpha);
-    outColor = vec4(color * (alpha * instant.weight), alpha);
-    outOpacity = vec4(alpha * instant.weight, 0.0f, 0.0f, alpha);
+    BlendShares shares = blendSharesOf(material.flags, surface.alpha);
+    outColor = vec4(color * (shares.light * instant.weight), shares.opacity);
+    outOpacity = vec4(shares.opacity * instant.weight, 0.0f, 0.0f, shares.opacity);
 }

@@ -24,7 +24,7 @@ vec3 seenThroughBlended(
         if (!hit.found) break;
         tMin = hit.t; // the surface itself is excluded: the interval is open
         ShadedHit shaded = shadeRasterHit(frame, hit.id, direction);
-        sum += transmitted * shaded.alpha * shaded.color;
+        sum += transmitted * shaded.light * shaded.color;
         transmitted *= 1.0f - shaded.alpha;
     }
     return sum + transmitted * color;

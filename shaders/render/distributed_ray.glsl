@@ -85,8 +85,7 @@ DistributedSample traceDistributed(
         );
         // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;
-        float share = last ? 1.0f : shaded.alpha;
-        result.radiance += transmitted * share * shaded.color;
+        result.radiance += transmitted * (last ? 1.0f : shaded.light) * shaded.color;
         if (last) {
             result.id = rayHit.id;
             result.depth = dot(shaded.eyePosition - ray.eye, ray.forward);
@@ -95,7 +94,7 @@ DistributedSample traceDistributed(
             result.eyePosition = shaded.eyePosition;
             break;
         }
-        transmitted *= 1.0f - share;
+        transmitted *= 1.0f - shaded.alpha;
         query.tMin = rayHit.t; // the surface itself is excluded: the interval is open
     }
     return result;

@@ -7,7 +7,8 @@
 #include "render/fragment_point.glsl"
 
 layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: pixels below the cutoff are dropped
-layout(constant_id = 1) const uint kBlend = 0u;     // 1: alpha is kept for blending
+// 1: alpha is kept for blending; 2: the colour is premultiplied for it
+layout(constant_id = 1) const uint kBlend = 0u;
 layout(constant_id = 2) const uint kMoves = 1u;     // 0: the entity has no motion
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
@@ -33,6 +34,10 @@ void main() {
         ShadowSource(true, 0u, draw.entity, moversOfTile(frame, gl_FragCoord.xy))
     );
     outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
+    if (kBlend == 2u) {
+        BlendShares shares = blendSharesOf(material.flags, surface.alpha);
+        outColor = vec4(color * shares.light, shares.opacity);
+    }
     outNormal = vec4(surface.normal, 0.0f);
     vec2 motion = vec2(0.0f);
     if (kMoves != 0u) {

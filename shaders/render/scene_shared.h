@@ -68,6 +68,8 @@ SHUTTER_CONST uint kMaterialUnlit = 1u;
 SHUTTER_CONST uint kMaterialDoubleSided = 2u;
 SHUTTER_CONST uint kMaterialMask = 4u;
 SHUTTER_CONST uint kMaterialBlend = 8u;
+SHUTTER_CONST uint kMaterialAdd = 16u;           // with kMaterialBlend: it hides nothing
+SHUTTER_CONST uint kMaterialPremultiplied = 32u; // with kMaterialBlend: its colour has alpha in it
 
 /// Bits of an instance's mask and of a ray's: what can be met. A ray that leaves out some of the
 /// solid bits passes the instances that have none but those.

@@ -8,7 +8,8 @@
 
 struct ShadedHit {
     vec3 color;
-    float alpha; // of blended materials, [0, 1]; 1 for all others
+    float alpha; // of blended materials, how much they hide, [0, 1]; 1 for all others
+    float light; // share of the colour that reaches the viewer, [0, 1]
     vec3 normal; // eye space, unit, on the viewer's side
     vec3 eyePosition;
     vec3 objectPosition;
@@ -27,7 +28,9 @@ ShadedHit shadeHit(
     Surface surface = evaluateSurface(frame, material, hit.point, direction);
     shaded.color =
         shadeSurface(frame, material, surface, shaded.eyePosition, direction, lights, shadows);
-    shaded.alpha = (material.flags & kMaterialBlend) != 0u ? saturate(surface.alpha) : 1.0f;
+    BlendShares shares = blendSharesOf(material.flags, surface.alpha);
+    shaded.alpha = shares.opacity;
+    shaded.light = shares.light;
     shaded.normal = surface.normal;
     return shaded;
 }

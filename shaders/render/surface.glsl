@@ -28,6 +28,21 @@ struct Surface {
     vec3 emissive;
 };
 
+/// How a surface joins what lies behind it.
+struct BlendShares {
+    float light;   // share of its colour that reaches the viewer, [0, 1]
+    float opacity; // how much of what lies behind it hides, [0, 1]
+};
+
+/// \param flags of the material
+BlendShares blendSharesOf(uint flags, float alpha) {
+    float share = saturate(alpha);
+    if ((flags & kMaterialBlend) == 0u) return BlendShares(1.0f, 1.0f);
+    if ((flags & kMaterialAdd) != 0u) return BlendShares(share, 0.0f);
+    if ((flags & kMaterialPremultiplied) != 0u) return BlendShares(1.0f, share);
+    return BlendShares(share, share);
+}
+
 vec4 sampleRef(FrameRef frame, TextureRef ref, SurfacePoint point, float footprint, float cosine) {
     vec2 uv = ref.axes.xy * point.uv[ref.uvSet].x + ref.axes.zw * point.uv[ref.uvSet].y + ref.offset;
     float stretch = abs(ref.axes.x * ref.axes.w - ref.axes.y * ref.axes.z);

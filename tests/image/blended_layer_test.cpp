@@ -22,8 +22,14 @@ using test::Shot;
 
 constexpr std::string_view kLayerPass = "blended layer";
 
-scene::AssetIndex addGlass(SceneBuilder& scene, const math::vec3& color, float alpha) {
+scene::AssetIndex addGlass(
+    SceneBuilder& scene,
+    const math::vec3& color,
+    float alpha,
+    scene::BlendMode mode = scene::BlendMode::Over
+) {
     scene::Material material;
+    material.blendMode = mode;
     material.baseColorFactor = math::vec4(color, alpha);
     material.alphaMode = scene::AlphaMode::Blend;
     material.unlit = true;
@@ -306,7 +312,41 @@ TEST_F(BlendedLayerLaw, AFrameAfterOneThatHadThePaneInItsRasterDoesNotSeeItTwice
     EXPECT_TRUE(changed) << "the pane leaves the raster between two frames";
 }
 
+/// Two panes of a mode that cross before the wall, one within the other's reach.
+SceneBuilder makeGlow(scene::BlendMode mode) {
+    SceneBuilder scene = makeWall();
+    for (const double side : {1.0, -1.0})
+        scene.add(
+            test::makeQuad(0.9, 0.7, addGlass(scene, {0.2f, 0.3f, 0.1f}, 0.6f, mode)),
+            {.position = {0.2 * side, 0, -2.0 - 0.3 * side}, .velocity = {1.2 * side, 0.2, 0}}
+        );
+    return scene;
+}
+
+TEST_F(BlendedLayerLaw, LightThatIsAddedAndPremultipliedColoursBlurAsByBruteForce) {
+    for (const scene::BlendMode mode : {scene::BlendMode::Add, scene::BlendMode::Premultiplied})
+        for (const std::string_view method : {"resolved", "gather"})
+            EXPECT_GT(measure(makeGlow(mode), method), 45.0) << method;
+    // What is added hides nothing: no pixel is darker than without it.
+    const image::Image with = draw(makeGlow(scene::BlendMode::Add), "sharp").color;
+    const image::Image without = draw(makeWall(), "sharp").color;
+    for (size_t i = 0; i < with.pixels.size(); ++i)
+        ASSERT_GE(with.pixels[i], without.pixels[i] - 1.0e-3f);
+    EXPECT_FALSE(test::sameBits(with, without));
+}
+
 using BlendedLayerRays = test::RayTest;
+
+TEST_F(BlendedLayerRays, RaysAddLightAsTheRasterDoes) {
+    for (const scene::BlendMode mode : {scene::BlendMode::Add, scene::BlendMode::Premultiplied}) {
+        Shot shot{.method = "truth", .width = 192, .height = 128, .exposureSeconds = 1.0e-6};
+        shot.instants = 4;
+        const SceneBuilder scene = makeGlow(mode);
+        const image::Image traced = test::renderOnce(device(), scene, shot).color;
+        shot.method = "sharp";
+        EXPECT_GT(image::computePsnr(traced, test::renderOnce(device(), scene, shot).color), 40.0);
+    }
+}
 
 TEST_F(BlendedLayerRays, NoRayMeetsAPaneOfTheLayer) {
     SceneBuilder scene = makeWall();

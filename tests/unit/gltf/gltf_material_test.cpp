@@ -48,6 +48,22 @@ TEST(GltfMaterial, AnEmptyMaterialHasTheDefaultsOfTheSpecification) {
     EXPECT_EQ(material.baseColor.texture, scene::kNone);
 }
 
+TEST(GltfMaterial, ABlendModeStandsBeforeTheMaterialsOwn) {
+    const auto read = [](const std::string& mode) {
+        return readMaterial(
+            R"("alphaMode":"MASK","extensions":{"OMI_materials_blend":{)" + mode + "}}"
+        );
+    };
+    const scene::Material added = read(R"("alphaMode":"ADD")");
+    EXPECT_EQ(added.alphaMode, scene::AlphaMode::Blend);
+    EXPECT_EQ(added.blendMode, scene::BlendMode::Add);
+    EXPECT_EQ(read(R"("alphaMode":"PREMULT")").blendMode, scene::BlendMode::Premultiplied);
+    EXPECT_EQ(read(R"("alphaMode":"BLEND")").alphaMode, scene::AlphaMode::Blend);
+    // Modes that are not drawn fall back, as the draft asks.
+    for (const char* mode : {R"("alphaMode":"MULTIPLY")", ""})
+        EXPECT_EQ(read(mode).alphaMode, scene::AlphaMode::Mask) << mode;
+}
+
 TEST(GltfMaterial, FactorsAndSwitchesAreRead) {
     const scene::Material material = readMaterial(
         R"("name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],
