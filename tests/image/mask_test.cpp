@@ -264,11 +264,20 @@ SceneBuilder makeWall() {
     return scene;
 }
 
-void addMover(SceneBuilder& scene) {
+void addSquare(SceneBuilder& scene, const dvec3& velocity) {
     scene.add(
         test::makeQuad(0.9, 0.9, scene.addColor({1, 0, 0.9f})),
-        {.position = {0.05, -0.03, -2}, .velocity = {0.35, 0.1, 0}}
+        {.position = {0.05, -0.03, -2}, .velocity = velocity}
     );
+}
+
+void addMover(SceneBuilder& scene) {
+    addSquare(scene, {0.35, 0.1, 0});
+}
+
+/// Passes what is near faster than what is far; panes stay in the raster.
+void moveCamera(SceneBuilder& scene) {
+    scene.moveCamera({.velocity = {-0.7, -0.2, 0}});
 }
 
 /// A pane before the mover and one behind it; the last entities, so that no other id changes.
@@ -291,15 +300,24 @@ auto isSet(const image::Image& mask) {
     return [&mask](uint32_t x, uint32_t y) { return mask.at(x, y, 0) > 0.5f; };
 }
 
-/// Inside the mask, what is revealed in `with` is what raster draws of `without`.
-/// \return the mask
+/// Inside the mask, where `with` shows what `without` has not, what is revealed is what raster
+/// draws of `without`. \return the mask, of these pixels alone
 image::Image
 expectRevealed(gpu::Device& device, const SceneBuilder& with, const SceneBuilder& without) {
     const auto expected = test::renderOnce(device, without, shotOf("sharp"));
     Shot shot = shotOf("hybrid");
     shot.aovs = {"mask", "reveal"};
     auto actual = test::renderOnce(device, with, shot);
-    const image::Image& mask = actual.intermediates.at("mask");
+    const image::Image shown = test::renderOnce(device, with, shotOf("sharp")).color;
+    image::Image& mask = actual.intermediates.at("mask");
+    for (uint32_t y = 0; y < mask.height; ++y)
+        for (uint32_t x = 0; x < mask.width; ++x) {
+            bool differs = false;
+            for (uint32_t channel = 0; channel < 3; ++channel)
+                differs = differs || shown.at(x, y, channel) != expected.color.at(x, y, channel);
+            if (!differs)
+                mask.at(x, y, 0) = 0.0f;
+        }
     EXPECT_GT(test::countSet(mask), 150u);
     EXPECT_LE(
         test::computeMaxDifferenceWhere(
@@ -332,7 +350,8 @@ TEST_F(TransparencyLaw, WhatIsRevealedIsSeenThroughTheBlendedSurfacesBeforeIt) {
     addPanes(without);
     SceneBuilder with = makeWall();
     addPanes(with);
-    addMover(with);
+    addSquare(with, dvec3(0.0));
+    moveCamera(with);
     const image::Image mask = expectRevealed(device(), with, without);
     // The law means nothing where no pane is before what is revealed.
     const auto panes = test::renderOnce(device(), without, shotOf("sharp"));
@@ -349,7 +368,8 @@ TEST_F(TransparencyLaw, TheSkyIsRevealedThroughBlendedSurfacesToo) {
     addSky(without);
     SceneBuilder with;
     addSky(with);
-    addMover(with);
+    addSquare(with, dvec3(0.0));
+    moveCamera(with);
     expectRevealed(device(), with, without);
 }
 
@@ -368,25 +388,9 @@ TEST_F(TransparencyLaw, AMoverGoesWithItsOwnPanesAndItsSolidPartsAreNoLayers) {
     const auto pane = test::makeQuad(0.9, 0.5, addGlass(with, {0.9f, 0.9f, 0.1f, 0.5f}));
     const auto leaves = at(test::makeQuad(0.9, 0.9, addLeaves(with)), -0.1);
     const auto back = at(test::makeQuad(0.9, 0.9, with.addColor({1, 0, 0.9f})), -0.2);
-    with.add(
-        with.addMesh({pane, leaves, back}),
-        {.position = {0.05, -0.03, -1.8}, .velocity = {0.35, 0.1, 0}}
-    );
+    with.add(with.addMesh({pane, leaves, back}), {.position = {0.05, -0.03, -1.8}});
+    moveCamera(with);
     expectRevealed(device(), with, without);
-}
-
-TEST_F(TransparencyLaw, AMovingPaneBeforeAStillWallStaysSharp) {
-    SceneBuilder scene = makeWall();
-    addPanes(scene, {0.5, 0.2, 0});
-    const auto sharp = test::renderOnce(device(), scene, shotOf("sharp"));
-    for (const std::string_view method : test::listBlurMethods(device())) {
-        // What traces the whole picture sees the pane at each instant, and blurs it.
-        const bool isTraced = !motion_blur::getMethod(method).readsRaster;
-        EXPECT_NE(
-            isTraced,
-            test::sameBits(sharp.color, test::renderOnce(device(), scene, shotOf(method)).color)
-        ) << method;
-    }
 }
 
 TEST_F(TransparencyLaw, PanesAreSortedWhateverTheirOrderInTheTable) {
