@@ -4,6 +4,7 @@
 #include "engine/core/words.h"
 #include "game/demos/gallery_balls.h"
 #include "game/demos/gallery_targets.h"
+#include "game/demos/sparks.h"
 #include "game/demos/stage.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ constexpr double kReloadSeconds = 0.4;
 constexpr double kClosingShotSeconds = 2.5; // of each camera after the end
 constexpr double kThrowSpeed = 24.0;        // m/s
 constexpr double kThrowLift = 0.06;         // radians above the aim, against the fall
+constexpr uint32_t kSplintersPerHit = 24;
 constexpr int kBallCount = 12;
 
 /// The scene's rails: node `rail_N` is N's bar, `target_N_K` stand on it.
@@ -83,8 +85,11 @@ core::Result<std::unique_ptr<Demo>> GalleryDemo::create(scene::World world, std:
 GalleryDemo::GalleryDemo(scene::World loaded, const Nodes& nodes)
     : DemoBase(std::move(loaded), nodes.launcher), mNodes(nodes),
       mShooterRest(restOf(world(), nodes.shooter)), mLauncherRest(restOf(world(), nodes.launcher)) {
-    for (int i = 0; i < kBallCount; ++i)
-        world().registry.add(copyHidden(world(), mNodes.ball), Ball{});
+    for (int i = 0; i < kBallCount; ++i) {
+        const ecs::Entity ball = copyHidden(world(), mNodes.ball);
+        world().registry.add(ball, Ball{});
+        world().registry.add(ball, makeSplinters(static_cast<uint32_t>(i)));
+    }
     (void)game::simulate(world(), mNodes.shooter);
     (void)game::simulate(world(), mNodes.launcher);
     recordStart();
@@ -108,13 +113,13 @@ void GalleryDemo::throwOne() {
 void GalleryDemo::countHits() {
     ecs::Registry& registry = world().registry;
     for (auto [entity, ball, pose] : registry.view<Ball, SimulatedPose>()) {
-        (void)entity;
         if (!ball.flies || ball.hasHit)
             continue;
         const auto hit = hitTarget(registry, pose.transform.translation, kBallRadius);
         if (!hit)
             continue;
         ball.hasHit = true;
+        burst(registry, entity, seconds(), kSplintersPerHit);
         // It falls back from the face.
         ball.velocity = {ball.velocity.x * 0.3, ball.velocity.y, -0.25 * ball.velocity.z};
         if (isOver())

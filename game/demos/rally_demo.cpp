@@ -3,6 +3,7 @@
 
 #include "engine/core/words.h"
 #include "game/demos/rally_posts.h"
+#include "game/demos/sparks.h"
 #include "game/demos/stage.h"
 
 #include <fmt/format.h>
@@ -23,11 +24,17 @@ constexpr int kPerSecond = 20;
 constexpr int kPerGate = 100;
 constexpr int kPerPost = -50;
 
+constexpr double kSlidingSpeed = 1.8; // m/s sideways, from which tyres raise dust
+constexpr double kDustySpeed = 6.0;   // m/s beside the road
+constexpr double kDustPerSecond = 70.0;
+
 void addPosts(scene::World& world, const std::vector<ecs::Entity>& entities) {
+    uint32_t seed = 1;
     for (const ecs::Entity entity : entities) {
         Post post;
         post.rod.place = simulate(world, entity).transform.translation;
         world.registry.add(entity, post);
+        world.registry.add(entity, makeSparks(seed++));
     }
 }
 
@@ -87,6 +94,8 @@ RallyDemo::RallyDemo(
         (void)game::simulate(world(), wheel.spokes);
         // Wheels blur by their own motion, whatever is said of the body.
         world().registry.add(wheel.tyre, scene::MotionBlur{});
+        if (!wheel.isFront)
+            world().registry.add(wheel.tyre, makeDust(static_cast<uint32_t>(wheel.tyre.index)));
     }
     placeCar();
     recordStart();
@@ -107,6 +116,19 @@ void RallyDemo::placeCar() {
     place(mNodes.chase, chasePose(mChase, state));
 }
 
+void RallyDemo::raiseDust(const CarState& state) {
+    const double slip = std::abs(glm::dot(state.velocity, state.right()));
+    const bool isOff = !mTrack.isOnRoad(state.place) && glm::length(state.velocity) > kDustySpeed;
+    for (const Wheel& wheel : mNodes.wheels)
+        if (!wheel.isFront)
+            emitSteadily(
+                world().registry,
+                wheel.tyre,
+                seconds(),
+                slip > kSlidingSpeed || isOff ? kDustPerSecond : 0.0
+            );
+}
+
 void RallyDemo::simulate(const DemoControls& controls) {
     auto& state = world().registry.get<CarState>(mCar);
     const math::dvec2 before = state.place;
@@ -114,7 +136,8 @@ void RallyDemo::simulate(const DemoControls& controls) {
     const DemoControls rollOut{.drive = state.speed() > 0.5 ? -0.4 : 0.0};
     stepCar(state, isOver() ? rollOut : controls, mTrack.isOnRoad(state.place));
     (void)collideWithFences(state, mFences);
-    const int hits = hitPosts(world().registry, state);
+    const int hits = hitPosts(world().registry, state, seconds());
+    raiseDust(state);
     stepPosts(world().registry);
     stepChase(mChase, state);
     placeCar();

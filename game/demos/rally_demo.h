@@ -50,6 +50,8 @@ class RallyDemo final : public DemoBase {
     };
 
     RallyDemo(scene::World world, const Nodes& nodes, RallyTrack track, std::vector<Fence> fences);
+    /// Behind rear wheels that slide or run beside the road.
+    void raiseDust(const CarState& state);
     void placeCar();
 
     ecs::Entity mCar;

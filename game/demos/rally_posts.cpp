@@ -3,6 +3,7 @@
 
 #include "engine/math/transform.h"
 #include "game/demos/demo.h"
+#include "game/demos/sparks.h"
 #include "game/demos/stage.h"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ void meetGround(Rod& rod, const dvec3& arm) {
     applyImpulse(rod, arm, direction * -std::min(stop, kPostFriction * push));
 }
 
+constexpr uint32_t kSparksPerPost = 40;
 constexpr double kSpeedTaken = 0.03; // of the car's, by a post of a two-hundredth of its mass
 constexpr double kLift = 0.13; // of the car's speed: the bumper meets the post below its middle
 
@@ -112,12 +114,13 @@ double measureEnergy(const Rod& rod) {
            0.5 * inertiaOf(rod) * glm::dot(rod.spin, rod.spin) + kGravity * rod.place.y;
 }
 
-int hitPosts(ecs::Registry& registry, CarState& car) {
+int hitPosts(ecs::Registry& registry, CarState& car, double seconds) {
     int hits = 0;
     for (auto [entity, post] : registry.view<Post>()) {
-        (void)entity;
         if (!post.isStanding || !meets(car, post.rod))
             continue;
+        if (registry.has<scene::ParticleEmitter>(entity))
+            burst(registry, entity, seconds, kSparksPerPost);
         post.isStanding = false;
         throwPost(post.rod, car);
         car.velocity *= 1.0 - kSpeedTaken;

@@ -34,8 +34,9 @@ struct Post {
 };
 
 /// Throws over the standing posts that the car has run into, which takes speed from the car.
+/// Those with an emitter spark.
 /// \return the number of posts
-int hitPosts(ecs::Registry& registry, CarState& car);
+int hitPosts(ecs::Registry& registry, CarState& car, double seconds);
 
 /// Advances the thrown posts by one step and writes their SimulatedPose.
 void stepPosts(ecs::Registry& registry);

@@ -7,6 +7,7 @@
 #include "game/demos/rally_car.h"
 #include "game/demos/rally_posts.h"
 #include "game/demos/rally_track.h"
+#include "game/demos/sparks.h"
 #include "game/demos/spin_ride.h"
 #include "game/demos/stage.h"
 
@@ -335,10 +336,10 @@ TEST(RallyPosts, AHitPostIsThrownAndTheCarPaysForIt) {
     registry.add(entity, standing);
     CarState car;
     car.velocity = {0.0, -20.0};
-    EXPECT_EQ(hitPosts(registry, car), 0);
+    EXPECT_EQ(hitPosts(registry, car, 0.0), 0);
     car.place = {0.0, -3.2};
-    EXPECT_EQ(hitPosts(registry, car), 1);
-    EXPECT_EQ(hitPosts(registry, car), 0) << "it counts once";
+    EXPECT_EQ(hitPosts(registry, car, 0.0), 1);
+    EXPECT_EQ(hitPosts(registry, car, 0.0), 0) << "it counts once";
     const Rod thrown = std::as_const(registry).get<Post>(entity).rod;
     // A post has a two-hundredth of the car's mass.
     EXPECT_LT(measureEnergy(thrown) - 9.81 * 0.55, 200.0 * 0.5 * (400.0 - 19.4 * 19.4));
@@ -467,6 +468,43 @@ TEST(WrapAngle, LeavesOutWholeTurns) {
     EXPECT_NEAR(wrapAngle(-0.3), -0.3, 1e-12);
     EXPECT_NEAR(wrapAngle(1.5 * kPi), -0.5 * kPi, 1e-12);
     EXPECT_NEAR(wrapAngle(kPi), -kPi, 1e-12);
+}
+
+TEST(Sparks, StepsThatFollowOneAnotherAreOneSpanAndWhatIsGoneIsDropped) {
+    ecs::Registry registry;
+    const ecs::Entity wheel = registry.create();
+    registry.add(wheel, makeDust(1));
+    const auto& dust = registry.get<scene::ParticleEmitter>(wheel);
+    double seconds = 0.0;
+    const auto run = [&](int steps, double perSecond) {
+        for (int i = 0; i < steps; ++i)
+            emitSteadily(registry, wheel, seconds += kDemoStepSeconds, perSecond);
+    };
+    run(10, 70.0);
+    ASSERT_EQ(dust.spans.size(), 1u);
+    EXPECT_NEAR(dust.spans[0].fromSeconds, 0.0, 1.0e-12);
+    EXPECT_EQ(dust.spans[0].untilSeconds, seconds);
+    run(1, 0.0);
+    run(2, 70.0);
+    EXPECT_EQ(dust.spans.size(), 2u);
+    EXPECT_TRUE(scene::validateEmitter(dust).ok());
+    run(1000, 0.0);
+    EXPECT_TRUE(dust.spans.empty());
+}
+
+TEST(Sparks, OfThePostsThatACarMeetsFlyOnce) {
+    ecs::Registry registry;
+    const ecs::Entity post = registry.create();
+    registry.add(post, Post{});
+    registry.add(post, makeSparks(1));
+    CarState car;
+    car.velocity = {0.0, -10.0};
+    for (const double seconds : {1.0, 1.1})
+        (void)hitPosts(registry, car, seconds);
+    const auto& sparks = registry.get<scene::ParticleEmitter>(post);
+    ASSERT_EQ(sparks.bursts.size(), 1u);
+    EXPECT_EQ(sparks.bursts[0].seconds, 1.0);
+    EXPECT_GT(scene::listLiving(sparks, 1.0, 1.1).value().size(), 10u);
 }
 
 } // namespace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What flies off in the demos: sparks, dust, splinters.
+#pragma once
+
+#include "engine/ecs/registry.h"
+#include "engine/scene/particle_emitter.h"
+
+#include <cstdint>
+
+namespace shutter::game {
+
+/// Of metal that is struck: glows, falls and dies within half a second.
+[[nodiscard]] scene::ParticleEmitter makeSparks(uint32_t seed);
+/// Behind a wheel that slides.
+[[nodiscard]] scene::ParticleEmitter makeDust(uint32_t seed);
+/// Of a plate that a ball hits, from the ball.
+[[nodiscard]] scene::ParticleEmitter makeSplinters(uint32_t seed);
+
+/// Emits at once. The entity has an emitter (CHECKed); bursts that nothing is left of are dropped.
+void burst(ecs::Registry& registry, ecs::Entity entity, double seconds, uint32_t count);
+
+/// Emits, or does not, over the step that ends at `seconds`; likewise.
+/// \param perSecond 0: nothing
+void emitSteadily(ecs::Registry& registry, ecs::Entity entity, double seconds, double perSecond);
+
+} // namespace shutter::game
