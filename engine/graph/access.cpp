@@ -43,7 +43,7 @@ constexpr VkImageLayout kNoLayout = VK_IMAGE_LAYOUT_UNDEFINED;
 constexpr VkImageLayout kSampledLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
 // Stores may load too, and blending and depth tests read their target: those rows have both masks.
-const std::array<Row, 14> kRows{{
+const std::array<Row, 15> kRows{{
     {Access::SampledCompute,
      "sampled in compute",
      kCompute | kRays,
@@ -89,6 +89,18 @@ const std::array<Row, 14> kRows{{
       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
       VK_IMAGE_LAYOUT_GENERAL},
      VK_IMAGE_USAGE_STORAGE_BIT,
+     0},
+    {Access::OutsideWrite,
+     "written from outside",
+     kCompute,
+     true,
+     false,
+     {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+      VK_ACCESS_2_MEMORY_READ_BIT,
+      VK_ACCESS_2_MEMORY_WRITE_BIT,
+      VK_IMAGE_LAYOUT_GENERAL},
+     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+         VK_IMAGE_USAGE_TRANSFER_DST_BIT,
      0},
     {Access::ColorAttachment,
      "colour attachment",

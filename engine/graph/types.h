@@ -66,6 +66,9 @@ enum class Access : uint8_t {
     /// image: the same where passes that follow one another write each other's texels neither way:
     /// nothing stands between them, and they may run at once
     StorageWriteDisjoint,
+    /// image: written, in the general layout, by commands that are not the pass's own: as storage
+    /// image, colour attachment or target of copies
+    OutsideWrite,
     ColorAttachment,   ///< image: written as colour attachment
     DepthAttachment,   ///< image: tested and written as depth attachment
     TransferRead,      ///< copy source

@@ -66,7 +66,8 @@ core::Status checkFormat(const PassRecord& pass, const ResourceRecord& resource,
     const bool needsDepth = access == Access::DepthAttachment;
     const bool needsColor = access == Access::ColorAttachment || access == Access::StorageRead ||
                             access == Access::StorageWrite ||
-                            access == Access::StorageWriteDisjoint;
+                            access == Access::StorageWriteDisjoint ||
+                            access == Access::OutsideWrite;
     if ((needsDepth && isColor) || (needsColor && !isColor))
         return core::makeError(
             "pass '{}' uses '{}' as {}, but its format is a {} format",

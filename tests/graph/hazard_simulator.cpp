@@ -52,6 +52,12 @@ Touch touchOf(Access access, PassKind kind) {
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
             VK_IMAGE_LAYOUT_GENERAL};
+    case Access::OutsideWrite:
+        return {
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            VK_ACCESS_2_MEMORY_READ_BIT,
+            VK_ACCESS_2_MEMORY_WRITE_BIT,
+            VK_IMAGE_LAYOUT_GENERAL};
     case Access::ColorAttachment:
         return {
             VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
