@@ -127,4 +127,40 @@ void ReplayedReveal::record(const motion_blur::RevealTask& task) {
     vkCmdDispatch(task.commands, (task.width + 7) / 8, (task.height + 7) / 8, 1);
 }
 
+motion_blur::OwnBlended ReplayedDraws::answer(const DumpFrame& frame) {
+    mColors.clear();
+    mOpacities.clear();
+    const DumpedDraws& drawn = *frame.drawn;
+    for (uint32_t part = 0; part < drawn.partCount; ++part)
+        for (const bool isOpacity : {false, true}) {
+            const DumpImage* const image = frame.find(nameDrawnImage(part, isOpacity));
+            if (!image)
+                continue; // it is in alpha
+            gpu::Buffer& texels = (isOpacity ? mOpacities : mColors).emplace_back();
+            texels = gpu::Buffer(mDevice, "drawn", image->bytes.size(), 0, gpu::MemoryUse::Staging);
+            texels.writeBytes(image->bytes.data(), image->bytes.size(), 0);
+        }
+    motion_blur::OwnBlended own;
+    own.record = [this](const motion_blur::BlendedTask& task) { record(task); };
+    own.area = drawn.area;
+    own.instantCount = drawn.instantCount;
+    own.partCount = drawn.partCount;
+    own.isOpacityInAlpha = drawn.isOpacityInAlpha;
+    return own;
+}
+
+void ReplayedDraws::record(const motion_blur::BlendedTask& task) const {
+    const auto copy = [&](const gpu::Buffer& texels, VkImage image) {
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {task.area.extent.width, task.area.extent.height, 1};
+        vkCmdCopyBufferToImage(
+            task.commands, texels.handle(), image, VK_IMAGE_LAYOUT_GENERAL, 1, &region
+        );
+    };
+    copy(mColors[task.part], task.color.image);
+    if (task.opacity.image)
+        copy(mOpacities[task.part], task.opacity.image);
+}
+
 } // namespace shutter::replay

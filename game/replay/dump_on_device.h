@@ -56,4 +56,21 @@ class ReplayedReveal {
     std::deque<gpu::Buffer> mTexels;
 };
 
+/// Draws what the host drew over the picture.
+class ReplayedDraws {
+  public:
+    explicit ReplayedDraws(gpu::Device& device) : mDevice(device) {}
+
+    /// \param frame holds DumpFrame::drawn. What was drawn before is let go: the GPU must be done
+    /// with it.
+    motion_blur::OwnBlended answer(const DumpFrame& frame);
+
+  private:
+    void record(const motion_blur::BlendedTask& task) const;
+
+    gpu::Device& mDevice;
+    std::deque<gpu::Buffer> mColors; ///< by part
+    std::deque<gpu::Buffer> mOpacities;
+};
+
 } // namespace shutter::replay

@@ -50,7 +50,7 @@ struct ImageRow {
     bool hasPictureSize; ///< of its area
 };
 
-constexpr std::array<ImageRow, 13> kImages{
+constexpr std::array<ImageRow, 22> kImages{
     {{"color", {Texels::Half4, Texels::Float4}, true},
      {"motionDepth", {Texels::Float4, Texels::Float4}, true},
      {"vectors", {Texels::Float2, Texels::Float2}, false},
@@ -60,6 +60,15 @@ constexpr std::array<ImageRow, 13> kImages{
      {"entityId", {Texels::Uint1, Texels::Uint1}, false},
      {"deformedMotion", {Texels::Half4, Texels::Float4}, true},
      {"lastDeformedMotion", {Texels::Half4, Texels::Float4}, true},
+     {"blended", {Texels::Half4, Texels::Float4}, true},
+     {"drawnColor0", {Texels::Half4, Texels::Half4}, false},
+     {"drawnColor1", {Texels::Half4, Texels::Half4}, false},
+     {"drawnColor2", {Texels::Half4, Texels::Half4}, false},
+     {"drawnColor3", {Texels::Half4, Texels::Half4}, false},
+     {"drawnOpacity0", {Texels::Half4, Texels::Half4}, false},
+     {"drawnOpacity1", {Texels::Half4, Texels::Half4}, false},
+     {"drawnOpacity2", {Texels::Half4, Texels::Half4}, false},
+     {"drawnOpacity3", {Texels::Half4, Texels::Half4}, false},
      {"revealColor", {Texels::Half4, Texels::Half4}, true},
      {"revealMotionDepth", {Texels::Float4, Texels::Float4}, true},
      {"revealEntityId", {Texels::Uint1, Texels::Uint1}, true},
@@ -230,6 +239,42 @@ DumpImage readImage(const JsonNode& node, const ImageRow& row, const DumpFrame& 
     return image;
 }
 
+DumpedDraws readDraws(const JsonNode& node, const DumpFrame& frame) {
+    const JsonObject object = node.readObject({"area", "instants", "parts", "opacityInAlpha"});
+    DumpedDraws drawn;
+    const JsonNode area = object.require("area");
+    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMostPixels)});
+    drawn.area = {
+        {int32_t(numbers[0]), int32_t(numbers[1])}, {uint32_t(numbers[2]), uint32_t(numbers[3])}};
+    if (numbers[2] < 1.0 || numbers[3] < 1.0 || numbers[0] + numbers[2] > frame.width ||
+        numbers[1] + numbers[3] > frame.height)
+        area.fail("must lie in the picture of {} x {}", frame.width, frame.height);
+    drawn.instantCount = uint32_t(object.require("instants").readInteger(1, 256));
+    drawn.partCount = uint32_t(object.require("parts").readInteger(1, 4));
+    drawn.isOpacityInAlpha = object.require("opacityInAlpha").readBoolean();
+    return drawn;
+}
+
+/// The images of what the host drew are as large as its area.
+void checkDrawn(const JsonNode& node, const DumpFrame& frame) {
+    const DumpedDraws& drawn = *frame.drawn;
+    for (uint32_t part = 0; part < drawn.partCount; ++part)
+        for (const bool isOpacity : {false, true}) {
+            if (isOpacity && drawn.isOpacityInAlpha)
+                continue;
+            const std::string name = nameDrawnImage(part, isOpacity);
+            const DumpImage* const image = frame.find(name);
+            if (!image || image->width != drawn.area.extent.width ||
+                image->height != drawn.area.extent.height)
+                node.fail(
+                    "has no '{}' of {} x {}",
+                    name,
+                    drawn.area.extent.width,
+                    drawn.area.extent.height
+                );
+        }
+}
+
 void readImages(const JsonNode& node, DumpFrame& frame) {
     for (const auto& [name, value] : node.readFields()) {
         const std::string_view wanted = name; // Clang 14 captures no structured binding
@@ -249,6 +294,8 @@ void readImages(const JsonNode& node, DumpFrame& frame) {
     for (const std::string_view name : needed)
         if (!frame.find(std::string(name)))
             node.fail("has no '{}'", name);
+    if (frame.drawn)
+        checkDrawn(node, frame);
 }
 
 DumpFrame readFrame(const JsonNode& node) {
@@ -269,6 +316,7 @@ DumpFrame readFrame(const JsonNode& node) {
          "convention",
          "motion",
          "reveal",
+         "drawn",
          "response",
          "images"}
     );
@@ -295,6 +343,9 @@ DumpFrame readFrame(const JsonNode& node) {
         readMotion(motion, frame);
     frame.reveal = root.require("reveal").readChoice(kReveals);
     frame.response = root.require("response").readChoice(kResponses);
+    const auto drawn = root.find("drawn"); // older dumps have none
+    if (drawn && !drawn->isNull())
+        frame.drawn = readDraws(*drawn, frame);
     readImages(root.require("images"), frame);
     return frame;
 }
@@ -312,6 +363,10 @@ readWhole(const std::filesystem::path& file, uint64_t bytes, std::string_view wh
 }
 
 } // namespace
+
+std::string nameDrawnImage(uint32_t part, bool isOpacity) {
+    return fmt::format("drawn{}{}", isOpacity ? "Opacity" : "Color", part);
+}
 
 uint32_t texelBytes(Texels texels) {
     switch (texels) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,15 @@ struct DumpImage {
 };
 
 enum class DumpedReveal : uint8_t { None, Own, Tables };
+
+/// What the host drew over the picture: images drawnColor0 and so on.
+struct DumpedDraws {
+    VkRect2D area{{0, 0}, {0, 0}}; ///< within the picture
+    uint32_t instantCount = 1;     ///< [1, 256]
+    uint32_t partCount = 1;        ///< [1, 4]
+    bool isOpacityInAlpha = false;
+};
+
 enum class DumpedResponse : uint8_t { Box, File, Address };
 
 struct DumpFrame {
@@ -48,6 +58,7 @@ struct DumpFrame {
     std::vector<uint64_t> rowIds;
     DumpedReveal reveal = DumpedReveal::None;
     DumpedResponse response = DumpedResponse::Box;
+    std::optional<DumpedDraws> drawn;
     std::map<std::string, DumpImage> images;
     std::vector<uint8_t> responseBytes;
 
@@ -58,6 +69,9 @@ struct DumpFrame {
 };
 
 [[nodiscard]] uint32_t texelBytes(Texels texels);
+
+/// Of an image of DumpedDraws.
+[[nodiscard]] std::string nameDrawnImage(uint32_t part, bool isOpacity);
 
 /// Reads what a frame's file says. Error: names the file, the line and the field.
 [[nodiscard]] core::Result<DumpFrame> readDumpManifest(const std::filesystem::path& file);

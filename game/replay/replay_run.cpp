@@ -13,6 +13,7 @@
 #include "game/replay/dump_on_device.h"
 #include "game/replay/dump_reader.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/methods.h"
 #include "shaders/common/shutter_response_shared.h"
 
@@ -98,6 +99,25 @@ core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& setting
     return {};
 }
 
+/// What the host drew fits the instants and parts that are composited now.
+core::Status
+checkDraws(const DumpFrame& frame, const HostInputs& inputs, const MotionBlurSettings& settings) {
+    if (!frame.drawn)
+        return {};
+    const auto now = motion_blur::describeDrawn(inputs, settings, nullptr).rectangle;
+    if (now.instantCount == frame.drawn->instantCount && now.partCount == frame.drawn->partCount)
+        return {};
+    return makeError(
+        "'{}' cannot be replayed by {}: the host drew over it at {} in {}, which are {} and {} now",
+        frame.name,
+        settings.method->name,
+        core::countOf(frame.drawn->instantCount, "instant"),
+        core::countOf(frame.drawn->partCount, "part"),
+        now.instantCount,
+        now.partCount
+    );
+}
+
 core::Status checkSize(const DumpFrame& frame, const gpu::Device& device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
@@ -119,7 +139,7 @@ class Player {
   public:
     Player(const ReplayOptions& options, gpu::Device& device, size_t frameCount)
         : mOptions(options), mDevice(device), mFrameCount(frameCount), mReveal(device),
-          mReadback(device) {}
+          mDraws(device), mReadback(device) {}
 
     core::Status create(uint32_t views) {
         motion_blur::HostDevice host;
@@ -170,7 +190,8 @@ class Player {
             {"normal", &inputs.normal},
             {"entityId", &inputs.entityId},
             {"deformedMotion", &inputs.deformedMotion},
-            {"lastDeformedMotion", &inputs.lastDeformedMotion}};
+            {"lastDeformedMotion", &inputs.lastDeformedMotion},
+            {"blended", &inputs.blended}};
         for (const auto& [name, place] : places)
             if (const DumpImage* image = frame.find(name))
                 *place = mUploads.emplace_back(mDevice, *image).describe();
@@ -184,6 +205,8 @@ class Player {
         inputs.motion.rowIds = frame.rowIds;
         if (frame.reveal == DumpedReveal::Own)
             inputs.reveal = mReveal.answer(frame);
+        if (frame.drawn)
+            inputs.drawn = mDraws.answer(frame);
         return inputs;
     }
 
@@ -219,6 +242,7 @@ class Player {
         mTickets.clear();
         HostInputs inputs = describe(frame);
         SHUTTER_TRY(giveResponse(frame, inputs));
+        SHUTTER_TRY(checkDraws(frame, inputs, settings));
         inputs.showsInputs = mOptions.showsInputs;
         if (!mOptions.aovs.empty())
             inputs.observe = [this](
@@ -405,6 +429,7 @@ class Player {
     std::deque<UploadedImage> mUploads;
     std::vector<motion_blur::HostMover> mMovers;
     ReplayedReveal mReveal;
+    ReplayedDraws mDraws;
     shader::ResponseTable mResponse{};
     gpu::Buffer mResponseBuffer;
     render::Readback mReadback;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a host answers by means of its own (its rays, its shading, or another picture that it has):
 // the background behind masked pixels, and what pixels saw at instants that no raster holds. The
-// effect asks by a list, the host records what answers.
+// effect asks by a list, the host records what answers. And what it draws over the blurred picture.
 #pragma once
 
 #include "engine/gpu/vulkan.h"
@@ -13,6 +13,7 @@ namespace shutter::motion_blur {
 
 using RevealTask = ShutterBlurRevealTask;
 using SampleTask = ShutterBlurSampleTask;
+using BlendedTask = ShutterBlurBlendedTask;
 
 /// The host's commands, outside of rendering; they may bind anything.
 template <class Task> struct HostAnswer {
@@ -24,6 +25,16 @@ template <class Task> struct HostAnswer {
 struct OwnReveal : HostAnswer<RevealTask> {};
 
 struct OwnSamples : HostAnswer<SampleTask> {};
+
+/// What the host draws over the blurred picture; fields as in ShutterBlurInputs.
+struct OwnBlended {
+    /// Called once for each part of the exposure, in their order. It must not throw.
+    std::function<void(const BlendedTask&)> record;
+    VkRect2D area{{0, 0}, {0, 0}};
+    uint32_t instantCount = 0;
+    uint32_t partCount = 0;
+    bool isOpacityInAlpha = false;
+};
 
 /// Most that MotionBlurSettings::raysPerPixel may be where a host answers: memory is proportional
 /// to it.

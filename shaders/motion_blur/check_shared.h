@@ -43,8 +43,11 @@ SHUTTER_CONST uint kCheckDepthOne = 10u;
 SHUTTER_CONST uint kCheckDepthAboveOne = 11u;
 SHUTTER_CONST uint kCheckDepthSky = 12u;
 SHUTTER_CONST uint kCheckIdNone = 13u;
-SHUTTER_CONST uint kCheckIdBeyond = 14u; // the id is no row
-SHUTTER_CONST uint kCheckCounts = 16u;
+SHUTTER_CONST uint kCheckIdBeyond = 14u;        // the id is no row
+SHUTTER_CONST uint kCheckBlendedNan = 15u;      // a channel of `blended` is NaN or infinite
+SHUTTER_CONST uint kCheckBlendedNegative = 16u; // a colour of it is below 0
+SHUTTER_CONST uint kCheckBlendedOpacity = 17u;  // its alpha is outside of [0, 1]
+SHUTTER_CONST uint kCheckCounts = 20u;
 
 struct CheckTotals {
     uint serial;     // of the recording
@@ -66,7 +69,7 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::CheckSample) == 32);
-static_assert(sizeof(shutter::shader::CheckTotals) == 376912);
+static_assert(sizeof(shutter::shader::CheckTotals) == 376928);
 static_assert(
     shutter::shader::kCheckSamples == shutter::shader::kCheckAcross * shutter::shader::kCheckDown
 );

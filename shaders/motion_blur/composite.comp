@@ -49,8 +49,9 @@ void main() {
     ivec2 pixel = at + ivec2(params.originPx);
     vec4 blended = texelFetch(uBlendedColor, at, 0);
     float opacity = params.isOpacityInAlpha != 0u ? blended.a : texelFetch(uBlendedOpacity, at, 0).r;
+    if (isNotANumber(opacity)) opacity = 0.0f;
     // Alpha of the sum: what the layer lets through of all parts so far.
-    float passed = max(params.share - opacity, 0.0f);
+    float passed = clamp(params.share - opacity, 0.0f, params.share);
     bool isLast = params.part + 1u == params.partCount;
     vec3 picture = vec3(0.0f);
     vec3 behind = vec3(0.0f);
@@ -61,7 +62,7 @@ void main() {
     } else {
         behind = picture = imageLoad(uPicture, pixel).rgb;
     }
-    vec4 sum = vec4(blended.rgb + passed * behind, passed);
+    vec4 sum = vec4(storableColor(blended.rgb) + passed * behind, passed);
     if (params.part > 0u) sum += imageLoad(uSum, at);
     if (!isLast) {
         imageStore(uSum, at, sum);

@@ -65,6 +65,7 @@ struct InputsForC {
         inputs.motionDepth = convertForC(given.motionDepth);
         inputs.normal = convertForC(given.normal);
         inputs.entityId = convertForC(given.entityId);
+        inputs.blended = convertForC(given.blended);
         inputs.rasterTime = given.rasterTime;
         inputs.frameNumber = given.frameNumber;
         takeMotion(given.motion);
@@ -87,6 +88,17 @@ struct InputsForC {
                 static_cast<InputsForC*>(self)->mGiven.samples.record(*task);
             };
         }
+        if (given.drawn.record) {
+            inputs.blendedUser = this;
+            inputs.recordBlended = [](void* self, const ShutterBlurBlendedTask* task) {
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.drawn.record(*task);
+            };
+        }
+        inputs.blendedArea = given.drawn.area;
+        inputs.blendedInstants = given.drawn.instantCount;
+        inputs.blendedParts = given.drawn.partCount;
+        inputs.blendedOpacityInAlpha = given.drawn.isOpacityInAlpha ? VK_TRUE : VK_FALSE;
     }
 
     ShutterBlurInputs inputs = shutterBlurDefaultInputs();

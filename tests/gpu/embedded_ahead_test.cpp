@@ -69,6 +69,13 @@ struct Host : test::HostFrame {
             in.entityId = {};
             in.motion.movers = {};
         }
+        if (plan.drawsBlended) {
+            in.drawn.record = [](const motion_blur::BlendedTask&) {};
+            in.drawn.area.extent = {plan.width, plan.height / 2};
+        } else if (plan.blendedPixels > 0) {
+            in.blended = in.normal;
+            in.normal = {};
+        }
         return in;
     }
 
@@ -82,6 +89,10 @@ struct Host : test::HostFrame {
     motion_blur::HostMover mover{0, {}};
 };
 
+/// Of a host that draws over the picture at instants, or hands in what it has drawn.
+constexpr const char* kDrawing = "resolved with draws";
+constexpr const char* kBlending = "gather with a layer";
+
 MotionBlurSettings settingsOf(const char* method) {
     return test::settingsOf(method, 7);
 }
@@ -92,11 +103,16 @@ constexpr const char* kStillWorld = "resolved without ids";
 HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     HostPlan plan;
     const bool isStill = method == kStillWorld;
-    plan.settings = settingsOf(isStill ? "resolved" : method);
+    const bool draws = method == kDrawing;
+    const bool blends = method == kBlending;
+    plan.settings = settingsOf(isStill || draws ? "resolved" : blends ? "gather" : method);
     if (isStill)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
     plan.height = height;
+    plan.drawsBlended = draws;
+    if (draws || blends)
+        plan.blendedPixels = uint64_t{width} * height / (draws ? 2 : 1);
     return plan;
 }
 
@@ -126,7 +142,8 @@ class EmbeddedAhead : public test::EmbeddedTest {
 
 TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
-        for (const char* method : {"gather", "hybrid", "resolved", "adaptive", kStillWorld}) {
+        for (const char* method :
+             {"gather", "hybrid", "resolved", "adaptive", kStillWorld, kDrawing, kBlending}) {
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
             const auto told = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
@@ -158,7 +175,8 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
 }
 
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
-    for (const char* method : {"gather", "hybrid", "resolved", "adaptive", kStillWorld})
+    for (const char* method :
+         {"gather", "hybrid", "resolved", "adaptive", kStillWorld, kDrawing, kBlending})
         for (const bool isAsynchronous : {false, true}) {
             SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());

@@ -312,6 +312,37 @@ typedef struct ShutterBlurSampleTask {
     VkDeviceSize answersBytes;
 } ShutterBlurSampleTask;
 
+/* What the host's commands, which recordBlended() records for one part of the exposure, read and
+ * write. All of it is ready for vertex, fragment and compute shaders; what is written needs no
+ * barrier of the host's. Images are in VK_IMAGE_LAYOUT_GENERAL. */
+typedef struct ShutterBlurBlendedTask {
+    uint32_t structBytes;
+    VkCommandBuffer commands; /* those of the recording */
+    VkRect2D area;            /* of the picture, pixels: the size of the images below */
+    uint32_t part;            /* of the exposure, below partCount */
+    uint32_t partCount;
+    uint32_t firstInstant; /* of the part */
+    uint32_t partInstantCount;
+    uint32_t instantCount; /* of the whole exposure */
+    /* Shutter times of all instants, rising: 0 open, 1 close. Valid during the call. */
+    const double* times;
+    /* 32-bit words: 8 of others, then for each pair of instants one per pixel of the area, row by
+     * row: two halves, the depth that the pixel sees at the even instant (low) and at the next one,
+     * metres along the view, infinity for the sky, and this frame's where nobody knows what was
+     * uncovered. Null: the method looks no instants up; this frame's depth is the nearest thing. */
+    VkBuffer surfaces;
+    VkDeviceAddress surfacesAddress;
+    VkDeviceSize surfacesBytes;
+    /* RGBA16F, undefined before: colour attachment, storage image or target of copies. To be
+     * written at every pixel: the sum over the part's instants of premultiplied colour divided by
+     * instantCount, and of opacity likewise. */
+    ShutterBlurRevealTarget color;
+    ShutterBlurRevealTarget opacity; /* in red; null with blendedOpacityInAlpha */
+} ShutterBlurBlendedTask;
+
+/* As ShutterBlurRecordReveal. */
+typedef void (*ShutterBlurRecordBlended)(void* user, const ShutterBlurBlendedTask* task);
+
 /* As ShutterBlurRecordReveal. */
 typedef void (*ShutterBlurRecordSamples)(void* user, const ShutterBlurSampleTask* task);
 
@@ -431,6 +462,20 @@ typedef struct ShutterBlurInputs {
      * this exposure. The host draws what deforms once more, posed as it was then and by that
      * frame's camera. With followsLast and deformedMotion; null: what deforms has no history. */
     ShutterBlurImage lastDeformedMotion;
+
+    /* Transparent surfaces and particles as they are over the exposure, which go over the blurred
+     * picture. RGBA16F or RGBA32F: premultiplied colour, linear, and opacity in alpha, [0, 1];
+     * light that hides nothing has opacity 0. `color` and lastColor are opaque then. Null: none. */
+    ShutterBlurImage blended;
+    /* The same drawn by the host at instants of the exposure, against what "resolved" and
+     * "adaptive" see at each of them, and over their background of each part of the exposure;
+     * `blended` goes over that. Called once for each part, before shutterBlurRecord() returns. */
+    ShutterBlurRecordBlended recordBlended;
+    void* blendedUser;              /* its first argument */
+    VkRect2D blendedArea;           /* that it may draw in; an extent of 0 x 0: the picture */
+    uint32_t blendedInstants;       /* at most, [0, 256]; 0: the method's, 15 for filters */
+    uint32_t blendedParts;          /* at most, [0, 4]; 0: 4. Filters have one */
+    VkBool32 blendedOpacityInAlpha; /* opacity goes into alpha of the colours */
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
@@ -535,6 +580,11 @@ typedef struct ShutterBlurPlan {
     uint32_t rowCount;
     uint32_t moverCount;          /* with matrices, at most */
     VkBool32 givesDeformedMotion; /* deformedMotion and lastDeformedMotion */
+    uint64_t blendedPixels;       /* of `blended`, or of blendedArea; 0: neither is given */
+    VkBool32 drawsBlended;        /* recordBlended in place of `blended`, with the fields below */
+    uint32_t blendedInstants;
+    uint32_t blendedParts;
+    VkBool32 blendedOpacityInAlpha;
 } ShutterBlurPlan;
 
 static inline ShutterBlurPlan shutterBlurDefaultPlan(void) {

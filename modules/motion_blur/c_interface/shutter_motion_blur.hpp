@@ -161,6 +161,12 @@ struct BlurInputs : ShutterBlurInputs {
         samplesUser = blur_detail::erase(call);
     }
 
+    /// `call(const ShutterBlurBlendedTask* task)`.
+    template <class Call> void setBlended(Call& call) {
+        recordBlended = blur_detail::invoke<Call, const ShutterBlurBlendedTask*>;
+        blendedUser = blur_detail::erase(call);
+    }
+
     double timeBefore() const { return shutterBlurGetTimeBefore(this); }
 };
 

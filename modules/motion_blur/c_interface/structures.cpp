@@ -141,6 +141,18 @@ void setAnswer(
         answer.record = [record, user](const Task& task) { record(user, &task); };
 }
 
+OwnBlended convertDrawn(const ShutterBlurInputs& given) {
+    OwnBlended drawn;
+    if (given.recordBlended)
+        drawn.record = [record = given.recordBlended,
+                        user = given.blendedUser](const BlendedTask& task) { record(user, &task); };
+    drawn.area = given.blendedArea;
+    drawn.instantCount = given.blendedInstants;
+    drawn.partCount = given.blendedParts;
+    drawn.isOpacityInAlpha = given.blendedOpacityInAlpha != VK_FALSE;
+    return drawn;
+}
+
 core::Result<const Method*> findHostMethod(const char* name) {
     if (!name)
         return nullptr; // the default
@@ -259,6 +271,11 @@ core::Result<HostPlan> convert(const ShutterBlurPlan* given) {
     plan.rowCount = wanted.rowCount;
     plan.moverCount = wanted.moverCount;
     plan.givesDeformedMotion = wanted.givesDeformedMotion != VK_FALSE;
+    plan.blendedPixels = wanted.blendedPixels;
+    plan.drawsBlended = wanted.drawsBlended != VK_FALSE;
+    plan.blendedInstants = wanted.blendedInstants;
+    plan.blendedParts = wanted.blendedParts;
+    plan.isBlendedOpacityInAlpha = wanted.blendedOpacityInAlpha != VK_FALSE;
     return plan;
 }
 
@@ -295,6 +312,8 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
         convert(wanted.lastColor), convert(wanted.lastMotionDepth), convert(wanted.lastEntityId)};
     inputs.deformedMotion = convert(wanted.deformedMotion);
     inputs.lastDeformedMotion = convert(wanted.lastDeformedMotion);
+    inputs.blended = convert(wanted.blended);
+    inputs.drawn = convertDrawn(wanted);
     if (wanted.budgetMilliseconds != 0.0)
         inputs.budget.milliseconds = wanted.budgetMilliseconds;
     inputs.showsInputs = wanted.showsInputs != VK_FALSE;

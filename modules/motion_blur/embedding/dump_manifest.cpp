@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/embedding/host_dump.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/embedding/host_ways.h"
@@ -95,6 +96,16 @@ ordered_json describeSettings(const MotionBlurSettings& settings) {
     return root;
 }
 
+/// What the host drew over the picture.
+ordered_json describeDraws(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    const shader::InstantSurfaces head = describeDrawn(inputs, settings, nullptr).rectangle;
+    return {
+        {"area", {head.originPx.x, head.originPx.y, head.sizePx.x, head.sizePx.y}},
+        {"instants", head.instantCount},
+        {"parts", head.partCount},
+        {"opacityInAlpha", inputs.drawn.isOpacityInAlpha}};
+}
+
 } // namespace
 
 ordered_json describeInputs(
@@ -130,6 +141,7 @@ ordered_json describeInputs(
         method.readsInstantMotions ? describeMotion(countedMotion(inputs, movers)) : ordered_json();
     const bool asks = method.rays == RayNeed::Any;
     root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
+    root["drawn"] = inputs.drawn.record ? describeDraws(inputs, settings) : ordered_json();
     root["response"] = hasResponse ? "file" : inputs.response == 0 ? "box" : "address";
     return root;
 }

@@ -47,7 +47,8 @@ class SmallImages {
                  {&inputs.last.motionDepth, kLastMotionRule},
                  {&inputs.last.entityId, kLastIdRule},
                  {&inputs.deformedMotion, kDeformedRule},
-                 {&inputs.lastDeformedMotion, kLastDeformedRule}})
+                 {&inputs.lastDeformedMotion, kLastDeformedRule},
+                 {&inputs.blended, kBlendedRule}})
             if (image->image)
                 make(*image, rule, picture);
     }

@@ -94,7 +94,7 @@ EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, cons
       mTimestampBits(host.measures ? findTimestampBits(host.physical, host.queueFamily) : 0),
       mHasRays(host.rayTier != gpu::RayTier::None),
       mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE), mPreparation(*mDevice),
-      mOverlay(std::make_unique<HostOverlay>(*mDevice)),
+      mComposite(*mDevice), mOverlay(std::make_unique<HostOverlay>(*mDevice)),
       mMarks(
           *mDevice, "marks", host.framesInFlight * sizeof(uint32_t), 0, gpu::MemoryUse::Readback
       ) {

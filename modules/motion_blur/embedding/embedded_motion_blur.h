@@ -17,6 +17,7 @@
 #include "modules/motion_blur/embedding/host_preparation.h"
 #include "modules/motion_blur/embedding/one_thread.h"
 #include "modules/motion_blur/motion_blur.h"
+#include "modules/motion_blur/passes/composite.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -131,6 +132,10 @@ class EmbeddedMotionBlur {
     /// Draws HostInputs::showsInputs over the picture, and returns it.
     [[nodiscard]] graph::ImageHandle
     showInputs(Frame& frame, const MotionBlurInputs& own, graph::ImageHandle picture) const;
+    /// Puts HostInputs::drawn and ::blended over the picture, which is written, and returns it.
+    /// \param surfaces MotionBlurOutputs::surfaces
+    [[nodiscard]] graph::ImageHandle
+    addBlended(Frame& frame, graph::ImageHandle picture, graph::BufferHandle surfaces);
     void deliver(Frame& frame, graph::ImageHandle picture) const;
     [[nodiscard]] InstantMotions describeInstants(Frame& frame, View& view);
     /// Whether the GPU has not run what was recorded last under the number.
@@ -150,6 +155,7 @@ class EmbeddedMotionBlur {
     bool mTellsMethod = false; ///< the host was told that its default is gather
     MotionBlur mEffect;
     HostPreparation mPreparation;
+    Composite mComposite;
     std::unique_ptr<HostOverlay> mOverlay;
     std::unique_ptr<HostChecker> mChecker; ///< null: off
     std::unique_ptr<HostUnsaid> mUnsaid;   ///< the same

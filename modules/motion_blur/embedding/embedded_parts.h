@@ -8,6 +8,7 @@
 #include "engine/graph/transient_pool.h"
 #include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/instant_motions.h"
 
@@ -75,12 +76,14 @@ struct EmbeddedMotionBlur::Frame {
     /// their vectors, and more of them than a tile's list holds.
     bool hasAll = false;
 
-    bool isHosts = false;     ///< the host will submit it: it may be checked and dumped
+    bool isHosts = false; ///< the host will submit it: it may be checked and dumped
+    bool isDumped = false;
     OwnReveal dumpedReveal{}; ///< the host's, whose answer is dumped
     /// Made from HostInputs::responsePoints; none where they are a box.
     std::optional<shader::ResponseTable> responseTable{};
-    ImportedInputs images{};     ///< the host's own
-    graph::ImageHandle output{}; ///< the same; in place: invalid
+    std::optional<BlendedDraws> drawn{}; ///< of HostInputs::drawn
+    ImportedInputs images{};             ///< the host's own
+    graph::ImageHandle output{};         ///< the same; in place: invalid
 
     /// In main memory; null: there is none, or its address alone is known.
     [[nodiscard]] const shader::ResponseTable* response() const {

@@ -224,6 +224,7 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
         frame.import(device, "deformed motion", inputs.deformedMotion, kDeformedRule);
     frame.images.lastDeformed =
         frame.import(device, "last deformed motion", inputs.lastDeformedMotion, kLastDeformedRule);
+    frame.images.blended = frame.import(device, "blended", inputs.blended, kBlendedRule);
     own.entityId = frame.images.entityId =
         frame.import(device, "entity id", inputs.entityId, kIdRule);
     if (own.entityId.isValid() &&
@@ -235,13 +236,34 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     return own;
 }
 
+graph::ImageHandle EmbeddedMotionBlur::addBlended(
+    Frame& frame, graph::ImageHandle picture, graph::BufferHandle surfaces
+) {
+    const HostInputs& inputs = frame.inputs;
+    if (frame.drawn) {
+        const auto parts = addOwnBlended(frame.graph, inputs.drawn, *frame.drawn, surfaces);
+        if (frame.isDumped)
+            mDump->addDrawn(frame.graph, frame.number, parts);
+        picture = mComposite.add(frame.graph, picture, parts, frame.drawn->rectangle, surfaces);
+    }
+    if (!frame.images.blended.isValid())
+        return picture;
+    const VkExtent2D size = pictureOf(inputs);
+    graph::ImageHandle blended = frame.images.blended;
+    if (!isWhole(inputs.blended, size))
+        blended = mPreparation.addNormal(frame.graph, blended, inputs.blended, size);
+    shader::InstantSurfaces whole{};
+    whole.sizePx = {size.width, size.height};
+    return mComposite.add(frame.graph, picture, {{blended, {}, 1.0f}}, whole, {});
+}
+
 void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const {
     const HostInputs& inputs = frame.inputs;
     const bool inPlace = !inputs.output.image;
     const HostImage& given = inPlace ? inputs.color : inputs.output;
-    if (inputs.isOff && inPlace)
+    if (inputs.isOff && inPlace && !inputs.blended.image && !inputs.drawn.record)
         picture = frame.images.color; // nothing is written
-    else if (inputs.isOff || !isOwn(given, kHostColorFormat, pictureOf(inputs)))
+    else if ((inputs.isOff && !inPlace) || !isOwn(given, kHostColorFormat, pictureOf(inputs)))
         picture = mPreparation.addDelivery(
             frame.graph,
             picture,
@@ -256,18 +278,25 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     const HostInputs& inputs = frame.inputs;
     const Method& method = *frame.settings.method;
     MotionBlurInputs own = prepare(frame);
+    if (inputs.drawn.record)
+        frame.drawn = describeDrawn(inputs, frame.settings, frame.response());
+    if (frame.drawn && findsSurfaces(inputs, frame.settings))
+        own.surfaces = frame.drawn->rectangle;
     if (inputs.isOff) {
         view.forget();
         (void)prepareLast(frame);
-        deliver(frame, own.color);
+        if ((frame.images.blended.isValid() || frame.drawn) && !own.colorIsWritable)
+            own.color =
+                mPreparation.addColor(frame.graph, own.color, inputs.color, pictureOf(inputs));
+        deliver(frame, addBlended(frame, own.color, {}));
         return;
     }
     if (frame.isHosts && mChecker)
         mChecker->add(frame.graph, frame.number, inputs, frame.images, frame.settings);
-    const bool isDumped = frame.isHosts && mDump && mDump->wantsFrame();
-    if (isDumped && mDump->startsView(inputs.motion.view))
+    frame.isDumped = frame.isHosts && mDump && mDump->wantsFrame();
+    if (frame.isDumped && mDump->startsView(inputs.motion.view))
         view.forget();
-    if (isDumped) {
+    if (frame.isDumped) {
         mDump->add(
             frame.graph, frame.number, inputs, frame.images, frame.settings, frame.response()
         );
@@ -276,7 +305,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     if (method.rays == RayNeed::Query)
         own.samples = &inputs.samples;
     if (method.rays == RayNeed::Any && inputs.reveal.record) {
-        own.reveal = isDumped ? &frame.dumpedReveal : &inputs.reveal;
+        own.reveal = frame.isDumped ? &frame.dumpedReveal : &inputs.reveal;
     } else if (method.rays == RayNeed::Any || (method.readsCamera && !own.motionIsCameras)) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (method.rays == RayNeed::Any && inputs.rays.tlas) {
@@ -296,9 +325,10 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     const MotionBlurOutputs made = mEffect.add(frame.graph, own, frame.settings);
     if (inputs.observe)
         inputs.observe(frame.graph, own, made);
-    if (isDumped)
-        mDump->addPicture(frame.graph, frame.number, made.color);
-    deliver(frame, inputs.showsInputs ? showInputs(frame, own, made.color) : made.color);
+    const graph::ImageHandle picture = addBlended(frame, made.color, made.surfaces);
+    if (frame.isDumped)
+        mDump->addPicture(frame.graph, frame.number, picture);
+    deliver(frame, inputs.showsInputs ? showInputs(frame, own, picture) : picture);
 }
 
 core::Status EmbeddedMotionBlur::record(Frame& frame, View& view, VkCommandBuffer commands) {

@@ -11,6 +11,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"
 #include "shaders/common/shutter_response_shared.h"
@@ -94,6 +95,11 @@ uint32_t chooseTexels(const HostImage& image) {
     return isHalf ? shader::kDumpHalf4 : shader::kDumpFloat4;
 }
 
+/// Of an image of what the host drew in a part of the exposure.
+std::string nameDrawn(uint32_t part, bool isOpacity) {
+    return fmt::format("drawn{}{}", isOpacity ? "Opacity" : "Color", part);
+}
+
 /// Waits for the host's commands, which wrote the images by shaders.
 void recordBarrier(VkCommandBuffer commands) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -163,7 +169,8 @@ HostDump::listInputs(const HostInputs& inputs, const ImportedInputs& images) {
         {"lastDeformedMotion",
          &inputs.lastDeformedMotion,
          images.lastDeformed,
-         chooseTexels(inputs.lastDeformedMotion)}};
+         chooseTexels(inputs.lastDeformedMotion)},
+        {"blended", &inputs.blended, images.blended, chooseTexels(inputs.blended)}};
     std::erase_if(list, [](const Input& input) { return !input.image.isValid(); });
     return list;
 }
@@ -310,7 +317,32 @@ void HostDump::addPlanes(
         addWhole("revealMotionDepth", shader::kDumpFloat4);
         addWhole("revealEntityId", shader::kDumpUint1);
     }
+    if (inputs.drawn.record) {
+        const shader::InstantSurfaces head = describeDrawn(inputs, settings, nullptr).rectangle;
+        const VkExtent2D size{head.sizePx.x, head.sizePx.y};
+        for (uint32_t part = 0; part < head.partCount; ++part)
+            for (const bool isOpacity : {false, true})
+                if (!isOpacity || !inputs.drawn.isOpacityInAlpha)
+                    add(nameDrawn(part, isOpacity).c_str(),
+                        shader::kDumpHalf4,
+                        size,
+                        {{0, 0}, size},
+                        VK_FORMAT_UNDEFINED);
+    }
     addWhole("picture", shader::kDumpHalf4);
+}
+
+void HostDump::addDrawn(
+    graph::Graph& graph, uint32_t frame, const std::vector<BlendedSums>& parts
+) {
+    Slot& slot = *mSlots[frame];
+    for (uint32_t part = 0; part < parts.size(); ++part)
+        for (const bool isOpacity : {false, true})
+            for (const Plane& plane : slot.planes)
+                if (plane.name == nameDrawn(part, isOpacity))
+                    addImagePass(
+                        graph, slot, isOpacity ? parts[part].opacity : parts[part].color, plane
+                    );
 }
 
 void HostDump::addImagePass(

@@ -11,6 +11,7 @@
 #include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/host_answers.h"
+#include "modules/motion_blur/passes/composite.h"
 #include "modules/motion_blur/settings.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -56,7 +57,9 @@ class HostDump {
         const ImportedInputs& images,
         const MotionBlurSettings& settings,
         const shader::ResponseTable* response);
-    /// The same for the blurred picture, after add().
+    /// The same for what the host drew over the picture, after add().
+    void addDrawn(graph::Graph& graph, uint32_t frame, const std::vector<BlendedSums>& parts);
+    /// The same for the blurred picture, after all else.
     void addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandle picture);
     /// The host's reveal, which is read as well; it refers to this, `inputs` and `recorder`.
     /// \param recorder binds what is recorded

@@ -3,6 +3,7 @@
 
 #include "engine/core/words.h"
 #include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/own_samples_shared.h"
@@ -54,7 +55,7 @@ core::Status checkDistinct(const HostInputs& inputs) {
     };
 
     const bool isMade = !inputs.motionDepth.image;
-    const std::array<Named, 10> images{
+    const std::array<Named, 11> images{
         {{"color", inputs.color},
          {isMade ? "vectors" : "motionDepth",
           isMade ? inputs.convention.vectors.image : inputs.motionDepth},
@@ -65,6 +66,7 @@ core::Status checkDistinct(const HostInputs& inputs) {
          {"lastEntityId", inputs.last.entityId},
          {"deformedMotion", inputs.deformedMotion},
          {"lastDeformedMotion", inputs.lastDeformedMotion},
+         {"blended", inputs.blended},
          {"output", inputs.output}}};
     for (size_t i = 0; i < images.size(); ++i)
         for (size_t j = i + 1; j < images.size(); ++j) {
@@ -299,6 +301,8 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
     if (inputs.output.image)
         SHUTTER_TRY(check(inputs.output, outputRule(inputs), picture, host));
+    if (inputs.blended.image)
+        SHUTTER_TRY(check(inputs.blended, kBlendedRule, picture, host));
     if (inputs.motionDepth.image)
         SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture, host));
     if (inputs.motionDepth.image && !inputs.isOff) // the checker and dumps read the cameras
@@ -341,6 +345,7 @@ const HostImageRule kLastIdRule{
     .name = "lastEntityId", .formats = kIdFormats, .hasPictureSize = false};
 const HostImageRule kDeformedRule{.name = "deformedMotion", .formats = kNormalFormats};
 const HostImageRule kLastDeformedRule{.name = "lastDeformedMotion", .formats = kNormalFormats};
+const HostImageRule kBlendedRule{.name = "blended", .formats = kNormalFormats};
 
 VkExtent2D pictureOf(const HostInputs& inputs) {
     return {inputs.width, inputs.height};
@@ -428,6 +433,7 @@ core::Status checkInputs(
             inputs.budget.milliseconds
         );
     SHUTTER_TRY(validate(settings));
+    SHUTTER_TRY(checkDrawn(inputs, settings, host.mostBufferBytes));
     return inputs.isOff ? core::Status() : checkMethod(inputs, settings, host);
 }
 

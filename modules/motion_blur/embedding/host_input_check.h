@@ -23,6 +23,7 @@ extern const HostImageRule kLastMotionRule;
 extern const HostImageRule kLastIdRule;
 extern const HostImageRule kDeformedRule;
 extern const HostImageRule kLastDeformedRule;
+extern const HostImageRule kBlendedRule;
 
 [[nodiscard]] HostImageRule colorRule(const HostInputs& inputs);
 [[nodiscard]] HostImageRule outputRule(const HostInputs& inputs);

@@ -95,6 +95,8 @@ struct HostInputs {
     HostLastFrame last;
     HostImage deformedMotion;
     HostImage lastDeformedMotion; ///< with and without `last`
+    HostImage blended;            ///< counts with isOff, as `drawn` does
+    OwnBlended drawn;             ///< under `blended`
     BlurBudget budget;            ///< unlimited unless HostDevice::measures
     bool isOff = false;           ///< no blur: `output`, if there is one, gets a copy of `color`
     bool showsInputs = false;

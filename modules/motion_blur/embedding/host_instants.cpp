@@ -23,10 +23,6 @@ constexpr uint32_t kNone = 0xFFFFFFFFu;
 /// Within which a key is at the raster instant: hosts may compute the two apart.
 constexpr double kSameTime = 1.0e-6;
 
-double invertResponse(const shader::ResponseTable* table, double u) {
-    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
-}
-
 uint64_t idOf(std::span<const uint64_t> rowIds, uint32_t row) {
     return rowIds.empty() ? row : rowIds[row];
 }
@@ -175,6 +171,10 @@ class Builder {
 };
 
 } // namespace
+
+double invertResponse(const shader::ResponseTable* table, double u) {
+    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
+}
 
 bool isRasterKey(const HostCameraKey& key, double rasterTime) {
     return std::abs(key.time - rasterTime) <= kSameTime;

@@ -21,6 +21,9 @@ struct HostMotionFrame {
     bool knowsLastDeformed = false; ///< HostInputs::lastDeformedMotion is given
 };
 
+/// Shutter time by which a share of the exposure's light is taken. \param table null: a box
+[[nodiscard]] double invertResponse(const shader::ResponseTable* table, double u);
+
 /// Whether a key is the raster instant's.
 [[nodiscard]] bool isRasterKey(const HostCameraKey& key, double rasterTime);
 

@@ -35,6 +35,17 @@ void imagineMotion(const HostPlan& plan, ImaginedInputs& imagined) {
     motion.followsLast = true;
 }
 
+/// As many whole rows as hold the planned pixels.
+void imagineDrawn(const HostPlan& plan, OwnBlended& drawn) {
+    drawn.record = [](const BlendedTask&) {};
+    const uint64_t width = std::max(plan.width, 1u);
+    const uint64_t rows = (plan.blendedPixels + width - 1) / width;
+    drawn.area.extent = {plan.width, uint32_t(std::min<uint64_t>(rows, plan.height))};
+    drawn.instantCount = plan.blendedInstants;
+    drawn.partCount = plan.blendedParts;
+    drawn.isOpacityInAlpha = plan.isBlendedOpacityInAlpha;
+}
+
 } // namespace
 
 void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
@@ -73,6 +84,10 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.deformedMotion = make(kHostColorFormat);
         inputs.lastDeformedMotion = make(kHostColorFormat);
     }
+    if (plan.blendedPixels > 0 && plan.drawsBlended)
+        imagineDrawn(plan, inputs.drawn);
+    else if (plan.blendedPixels > 0)
+        inputs.blended = make(kHostColorFormat);
     inputs.reveal.record = [](const RevealTask&) {};
     inputs.samples.record = [](const SampleTask&) {};
     imagineMotion(plan, imagined);

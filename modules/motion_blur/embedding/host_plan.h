@@ -26,6 +26,11 @@ struct HostPlan {
     uint32_t rowCount = 1;
     uint32_t moverCount = 0;
     bool givesDeformedMotion = false;
+    uint64_t blendedPixels = 0;
+    bool drawsBlended = false;
+    uint32_t blendedInstants = 0;
+    uint32_t blendedParts = 0;
+    bool isBlendedOpacityInAlpha = false;
 };
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.

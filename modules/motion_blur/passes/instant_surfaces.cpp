@@ -20,11 +20,8 @@ gpu::ComputePipelineDesc describeSurfaces() {
 
 /// A buffer whose head is written.
 graph::BufferHandle addHead(graph::Graph& graph, const shader::InstantSurfaces& wanted) {
-    const VkDeviceSize words =
-        VkDeviceSize(shader::surfaceWordsPerPixel(wanted)) * wanted.sizePx.x * wanted.sizePx.y;
     const graph::BufferHandle buffer = graph.createBuffer(
-        "instant surfaces",
-        {sizeof(wanted) + words * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
+        "instant surfaces", {surfaceBytes(wanted), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
     );
 
     struct Data {

@@ -12,6 +12,12 @@
 
 namespace shutter::motion_blur {
 
+/// Of the buffer.
+[[nodiscard]] inline VkDeviceSize surfaceBytes(const shader::InstantSurfaces& head) {
+    const VkDeviceSize pixels = VkDeviceSize(head.sizePx.x) * head.sizePx.y;
+    return sizeof(head) + pixels * shader::surfaceWordsPerPixel(head) * sizeof(uint32_t);
+}
+
 class InstantSurfacesPass {
   public:
     explicit InstantSurfacesPass(gpu::Device& device);

@@ -128,9 +128,13 @@ TEST(CStructures, ThatTellTheirSizeKeepTheirFieldsInPlace) {
     EXPECT_IN_PLACE(ShutterBlurSettings, preset, 32);
     EXPECT_IN_PLACE(ShutterBlurRevealTask, entityId, 104);
     EXPECT_IN_PLACE(ShutterBlurSampleTask, answersBytes, 88);
+    EXPECT_IN_PLACE(ShutterBlurBlendedTask, opacity, 104);
     EXPECT_IN_PLACE(ShutterBlurInputs, showsInputs, 1808);
+    EXPECT_IN_PLACE(ShutterBlurInputs, lastDeformedMotion, 1928);
+    EXPECT_IN_PLACE(ShutterBlurInputs, blendedOpacityInAlpha, 2160);
     EXPECT_IN_PLACE(ShutterBlurReport, gaveUp, 40);
     EXPECT_IN_PLACE(ShutterBlurPlan, moverCount, 52);
+    EXPECT_IN_PLACE(ShutterBlurPlan, blendedPixels, 64); // not in the padding before it
     EXPECT_IN_PLACE(ShutterBlurMemory, bytes, 8);
 }
 

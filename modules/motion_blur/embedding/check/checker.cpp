@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/check/checker.h"
 
+#include "spirv/motion_blur/check_blended.comp.h"
 #include "spirv/motion_blur/check_deformed.comp.h"
 #include "spirv/motion_blur/check_ids.comp.h"
 #include "spirv/motion_blur/check_picture.comp.h"
@@ -44,7 +45,7 @@ struct CheckIdsPush {
     uint32_t rowCount;
 };
 
-struct CheckDeformedPush {
+struct CheckAreaPush {
     glm::uvec2 sizePx;
     shader::PrepareArea area;
 };
@@ -163,9 +164,11 @@ HostChecker::HostChecker(gpu::Device& device, uint32_t frames, HostMessage messa
       mIds(device, describeCheck("check ids", motion_blur_check_ids_comp, 1, sizeof(CheckIdsPush))),
       mDeformed(
           device,
-          describeCheck(
-              "check deformed", motion_blur_check_deformed_comp, 1, sizeof(CheckDeformedPush)
-          )
+          describeCheck("check deformed", motion_blur_check_deformed_comp, 1, sizeof(CheckAreaPush))
+      ),
+      mBlended(
+          device,
+          describeCheck("check blended", motion_blur_check_blended_comp, 1, sizeof(CheckAreaPush))
       ),
       mSlots(frames), mLast(frames), mNumbers(frames), mNow(std::make_unique<CheckedFrame>()) {}
 
@@ -248,7 +251,17 @@ void HostChecker::add(
             mDeformed,
             {images.deformed},
             totals,
-            CheckDeformedPush{push.sizePx, makeArea(inputs.deformedMotion, facts.picture)},
+            CheckAreaPush{push.sizePx, makeArea(inputs.deformedMotion, facts.picture)},
+            sampler
+        );
+    if (images.blended.isValid())
+        totals = addTotalsPass(
+            graph,
+            "check blended",
+            mBlended,
+            {images.blended},
+            totals,
+            CheckAreaPush{push.sizePx, makeArea(inputs.blended, facts.picture)},
             sampler
         );
     addReadback(graph, totals, slot.totals);

@@ -30,6 +30,7 @@ struct ImportedInputs {
     graph::ImageHandle entityId;
     graph::ImageHandle deformed;
     graph::ImageHandle lastDeformed;
+    graph::ImageHandle blended;
 };
 
 class HostChecker {
@@ -74,6 +75,7 @@ class HostChecker {
     gpu::LazyPipeline mPicture;
     gpu::LazyPipeline mIds;
     gpu::LazyPipeline mDeformed;
+    gpu::LazyPipeline mBlended;
     std::vector<Slot> mSlots;
     std::vector<std::unique_ptr<CheckedFrame>> mLast; ///< by view
     std::vector<uint32_t> mNumbers;                   ///< by view: recordings so far

@@ -17,7 +17,7 @@ struct Named {
     HostImageRule rule;
 };
 
-std::array<Named, 11> listImages(const HostInputs& inputs) {
+std::array<Named, 12> listImages(const HostInputs& inputs) {
     const HostConvention& convention = inputs.convention;
     return {
         {{inputs.color, colorRule(inputs)},
@@ -30,7 +30,8 @@ std::array<Named, 11> listImages(const HostInputs& inputs) {
          {inputs.normal, kNormalRule},
          {inputs.last.color, kLastColorRule},
          {inputs.last.motionDepth, kLastMotionRule},
-         {inputs.last.entityId, kLastIdRule}}};
+         {inputs.last.entityId, kLastIdRule},
+         {inputs.blended, kBlendedRule}}};
 }
 
 void append(std::string& list, const char* name) {

@@ -81,6 +81,34 @@ void checkColorAndMotion(const CheckedFrame& now, std::vector<Finding>& findings
         );
 }
 
+void checkBlended(const CheckedFrame& now, std::vector<Finding>& findings) {
+    struct Row {
+        uint32_t index;
+        CheckKind kind;
+        const char* what;
+        const char* rest;
+    };
+
+    for (const Row& row : std::initializer_list<Row>{
+             {shader::kCheckBlendedNan,
+              CheckKind::BlendedNan,
+              "blended holds NaN or infinity",
+              ", where nothing or white is drawn"},
+             {shader::kCheckBlendedNegative,
+              CheckKind::BlendedNegative,
+              "blended is negative",
+              "; it must be linear light, premultiplied"},
+             {shader::kCheckBlendedOpacity,
+              CheckKind::BlendedOpacity,
+              "the alpha of blended is outside [0, 1]",
+              "; it must be the opacity, in the mean over the exposure"}})
+        if (countOf(now, row.index) > 0)
+            findings.push_back(
+                {row.kind,
+                 fmt::format("{} at {}{}", row.what, describeCount(now, row.index), row.rest)}
+            );
+}
+
 void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
     const CheckFacts& facts = now.facts;
     const HostDepth& depth = facts.convention.depth;
@@ -200,6 +228,7 @@ void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings) {
              "does; everything else is checked"}
         );
     checkColorAndMotion(now, findings);
+    checkBlended(now, findings);
     checkDepthValues(now, findings);
     checkSky(now, findings);
     const shader::CheckTotals& totals = now.totals;
