@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Motion blur in a renderer that has its own device, images, commands and two frames in flight:
-// from a moving square to "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4).
+// from a moving square, before which a spark flies, to "before.ppm" (without the spark) and
+// "after.ppm". Shutter's part is marked (1) to (4).
 #include <glm/gtc/packing.hpp>
 #include <shutter_motion_blur.hpp>
 #include <vulkan/vulkan_raii.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -52,17 +54,18 @@ struct Image {
     }
 };
 
-/// Clears rectangles of both images: stripes at rest, 10 m away, and the square at 5 m.
-void draw(const vk::raii::CommandBuffer& commands, const Image& color, const Image& motion, int x) {
-    std::array<vk::RenderingAttachmentInfo, 2> targets;
-    std::array<vk::ImageMemoryBarrier2, 2> barriers;
-    for (const int i : {0, 1}) {
-        const Image& image = i == 0 ? color : motion;
+using Images = std::array<const Image*, 3>; // opaque colour; its motion and depth; what is blended
+
+/// Clears rectangles: stripes at rest, 10 m away, the square at 5 m; the spark is blended.
+void draw(const vk::raii::CommandBuffer& commands, const Images& images, int x) {
+    std::array<vk::RenderingAttachmentInfo, 3> targets;
+    std::array<vk::ImageMemoryBarrier2, 3> barriers;
+    for (const size_t i : {0, 1, 2}) {
         barriers[i].setSrcStageMask(kAny).setDstStageMask(kAny).setDstAccessMask(kWrite);
-        barriers[i].setNewLayout(kTarget).setImage(*image.image);
+        barriers[i].setNewLayout(kTarget).setImage(*images[i]->image);
         barriers[i].setSubresourceRange({kColor, 0, 1, 0, 1});
-        targets[i].setImageView(*image.view).setImageLayout(kTarget);
-        targets[i].setLoadOp(vk::AttachmentLoadOp::eDontCare);
+        targets[i].setImageView(*images[i]->view).setImageLayout(kTarget);
+        targets[i].setLoadOp(vk::AttachmentLoadOp::eClear);
     }
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barriers));
     commands.beginRendering(vk::RenderingInfo({}, {{}, {kWidth, kHeight}}, 1, 0, targets));
@@ -74,6 +77,14 @@ void draw(const vk::raii::CommandBuffer& commands, const Image& color, const Ima
     for (int left = 0; left < int(kWidth); left += 10)
         fill({{left, 0}, {10, kHeight}}, {left % 20 ? 0.1f : 0.5f, 0.3f, 0.4f, 1}, {0, 0, 10, 0});
     fill({{x, 60}, {60, 60}}, {1, 0.3f, 0.1f, 1}, {kSpeedPx, 0, 5, 0});
+    // Over the exposure: 6 px wide, it lies before each column for a share of the time. It hides
+    // half of what is behind it.
+    for (int i = 0; i < int(kSpeedPx) + 6; ++i) {
+        const float share = float(std::min({i + 1, 6, int(kSpeedPx) + 6 - i})) / kSpeedPx;
+        const std::array premultiplied{share, share, share, 0.5f * share};
+        const vk::ClearAttachment spark(kColor, 2, vk::ClearColorValue(premultiplied));
+        commands.clearAttachments(spark, vk::ClearRect({{x + i, 70}, {1, 6}}, 0, 1));
+    }
     commands.endRendering();
 }
 
@@ -108,6 +119,7 @@ int main() try {
     std::vector<vk::raii::Fence> fences;
     using enum vk::ImageUsageFlagBits;
     const Image color(gpu, kHalf, eSampled | eTransferSrc), motion(gpu, kFull, eSampled);
+    const Image blended(gpu, kHalf, eSampled);
     const Image output(gpu, kHalf, eStorage | eTransferDst | eTransferSrc);
     constexpr auto kTo = vk::BufferUsageFlagBits::eTransferDst;
     vk::raii::Buffer copies(gpu.device, {{}, 2 * kFrames * kBytes, kTo});
@@ -119,6 +131,7 @@ int main() try {
     shutter::BlurInputs inputs(kWidth, kHeight); // (3) what it reads and writes
     inputs.color = shutter::BlurImage(*color.image, VkImageLayout(kTarget), VkImageLayout(kSource));
     inputs.motionDepth = shutter::BlurImage(*motion.image, VkImageLayout(kTarget), {});
+    inputs.blended = shutter::BlurImage(*blended.image, VkImageLayout(kTarget), {});
     inputs.output = shutter::BlurImage(*output.image, {}, VkImageLayout(kSource));
     const shutter::BlurSettings kGather("gather");
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
@@ -126,7 +139,7 @@ int main() try {
             (void)gpu.device.waitForFences(*fences[frame - kInFlight], true, UINT64_MAX);
         const vk::raii::CommandBuffer& now = commands[frame];
         now.begin({});
-        draw(now, color, motion, 40 + int(kSpeedPx * float(frame)));
+        draw(now, {&color, &motion, &blended}, 40 + int(kSpeedPx * float(frame)));
         const auto done = blur->record(*now, frame % kInFlight, inputs, kGather);
         require(bool(done), done.message().c_str());
         vk::BufferImageCopy to(2 * frame * kBytes, 0, 0, {kColor, 0, 0, 1}, {}, kSize);
