@@ -244,7 +244,13 @@ graph::ImageHandle EmbeddedMotionBlur::addBlended(
         const auto parts = addOwnBlended(frame.graph, inputs.drawn, *frame.drawn, surfaces);
         if (frame.isDumped)
             mDump->addDrawn(frame.graph, frame.number, parts);
-        picture = mComposite.add(frame.graph, picture, parts, frame.drawn->rectangle, surfaces);
+        picture = mComposite.add(
+            frame.graph,
+            picture,
+            [&](uint32_t part) { return parts[part]; },
+            frame.drawn->rectangle,
+            surfaces
+        );
     }
     if (!frame.images.blended.isValid())
         return picture;
@@ -254,7 +260,16 @@ graph::ImageHandle EmbeddedMotionBlur::addBlended(
         blended = mPreparation.addNormal(frame.graph, blended, inputs.blended, size);
     shader::InstantSurfaces whole{};
     whole.sizePx = {size.width, size.height};
-    return mComposite.add(frame.graph, picture, {{blended, {}, 1.0f}}, whole, {});
+    whole.instantCount = whole.partCount = 1;
+    return mComposite.add(
+        frame.graph,
+        picture,
+        [&](uint32_t) -> BlendedSums {
+            return {blended, {}, 1.0f};
+        },
+        whole,
+        {}
+    );
 }
 
 void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const {

@@ -38,7 +38,7 @@ Composite::Composite(gpu::Device& device)
 graph::ImageHandle Composite::add(
     graph::Graph& graph,
     graph::ImageHandle picture,
-    const std::vector<BlendedSums>& parts,
+    const DrawBlendedPart& draw,
     const shader::InstantSurfaces& rectangle,
     graph::BufferHandle surfaces
 ) {
@@ -50,15 +50,16 @@ graph::ImageHandle Composite::add(
     };
 
     graph::ImageHandle sum;
-    if (parts.size() > 1)
+    if (rectangle.partCount > 1)
         sum = graph.createImage(
             "composite sum", {rectangle.sizePx.x, rectangle.sizePx.y, VK_FORMAT_R16G16B16A16_SFLOAT}
         );
     shader::CompositeParams params{};
     params.originPx = rectangle.originPx;
     params.sizePx = rectangle.sizePx;
-    params.partCount = static_cast<uint32_t>(parts.size());
-    for (const BlendedSums& part : parts) {
+    params.partCount = rectangle.partCount;
+    for (; params.part < params.partCount; ++params.part) {
+        const BlendedSums part = draw(params.part);
         params.share = part.share;
         params.isOpacityInAlpha = part.opacity.isValid() ? 0 : 1;
         const Data& pass = graph.addPass<Data>(
@@ -99,7 +100,6 @@ graph::ImageHandle Composite::add(
         );
         picture = pass.picture;
         sum = pass.sum;
-        ++params.part;
     }
     return picture;
 }

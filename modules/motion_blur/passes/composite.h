@@ -8,7 +8,8 @@
 #include "engine/graph/graph.h"
 #include "shaders/common/instant_surfaces.glsl"
 
-#include <vector>
+#include <cstdint>
+#include <functional>
 
 namespace shutter::motion_blur {
 
@@ -20,18 +21,23 @@ struct BlendedSums {
     float share = 1.0f; ///< of the exposure that the part is
 };
 
+/// Declares what draws a part.
+using DrawBlendedPart = std::function<BlendedSums(uint32_t part)>;
+
 class Composite {
   public:
     explicit Composite(gpu::Device& device);
 
     /// \param picture RGBA16F, with storage usage; what is behind
-    /// \param rectangle whose instants and parts describe `surfaces`
+    /// \param draw called for each part in turn, before the pass that composites it: images of
+    /// different parts may share memory
+    /// \param rectangle whose parts they are, and whose instants and parts describe `surfaces`
     /// \param surfaces of InstantSurfacesPass; invalid: the picture lies behind each part
     /// \return the picture with all parts over it
     [[nodiscard]] graph::ImageHandle
     add(graph::Graph& graph,
         graph::ImageHandle picture,
-        const std::vector<BlendedSums>& parts,
+        const DrawBlendedPart& draw,
         const shader::InstantSurfaces& rectangle,
         graph::BufferHandle surfaces);
 

@@ -68,12 +68,16 @@ BlendedSurfaces::declare(const render::PostContext& context, const MotionBlurOut
     std::vector<float> shares(plan.partCount, 0.0f);
     for (uint32_t i = 0; i < rectangle.instantCount; ++i)
         shares[shader::surfacePartOf(rectangle, i)] += plan.instants[i].weight;
-    std::vector<BlendedSums> parts;
-    for (uint32_t part = 0; part < plan.partCount; ++part) {
-        const auto [color, opacity] = mLayer.declare(context, plan, blurred.surfaces, part);
-        parts.push_back({color, opacity, shares[part]});
-    }
-    return mComposite.add(context.graph, blurred.color, parts, rectangle, blurred.surfaces);
+    return mComposite.add(
+        context.graph,
+        blurred.color,
+        [&](uint32_t part) -> BlendedSums {
+            const auto [color, opacity] = mLayer.declare(context, plan, blurred.surfaces, part);
+            return {color, opacity, shares[part]};
+        },
+        rectangle,
+        blurred.surfaces
+    );
 }
 
 } // namespace shutter::motion_blur
