@@ -57,7 +57,7 @@ struct BenchCase {
 [[nodiscard]] GltfWriter buildBehindGlassCase();
 [[nodiscard]] GltfWriter buildGlassCarriageCase();
 
-// Of particles, likewise seen at the cases' time: nothing else moves, so they are not in the list.
+// Scenes of particles alone, for the same time; listHardCases() has scenes with moving meshes only.
 [[nodiscard]] GltfWriter buildSparksCase();
 [[nodiscard]] GltfWriter buildSmokeCase();
 [[nodiscard]] GltfWriter buildAdditiveSparksCase();

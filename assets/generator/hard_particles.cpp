@@ -24,7 +24,7 @@ float metresFor(float pixels) {
     return kDepth * pixels / kYardCaseShot.focalLengthPx();
 }
 
-/// Of a speed that crosses as many in an exposure.
+/// Speed, m/s, that crosses as many pixels in an exposure.
 float speedFor(float pixels) {
     return glm::length(kYardCaseShot.velocityFor({pixels, 0.0f}, kDepth));
 }

@@ -14,7 +14,7 @@ struct Picture {
     int width = 0;  ///< pixels
     int height = 0; ///< pixels
     std::vector<uint8_t> rgb;
-    std::vector<uint8_t> alpha{}; ///< linear, one a pixel; empty: all is opaque
+    std::vector<uint8_t> alpha{}; ///< linear, one per pixel; empty: opaque
 };
 
 /// Colour (sRGB-coded, [0, 1]; clamped) at a texture coordinate in [0, 1)^2, v downwards.

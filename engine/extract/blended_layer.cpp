@@ -172,7 +172,8 @@ class LayerScene : public LayerSource {
                box.most.x > 0.0 && box.least.y < double(view.height) && box.most.y > 0.0;
     }
 
-    /// Of the rows with opaque surfaces that move in the world. Nothing: there are too many.
+    /// Boxes of the rows with opaque surfaces that move in the world; nullopt: more than
+    /// kMostSweptMovers.
     [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const {
         std::vector<SweptBox> boxes;
         for (const uint32_t row : frame.movingRows)
@@ -181,7 +182,7 @@ class LayerScene : public LayerSource {
         return boxes;
     }
 
-    /// Of all rows with opaque surfaces that the raster shows. Nothing: there are too many.
+    /// Boxes of all rows with opaque surfaces that the raster shows; nullopt as above.
     [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaque() const {
         std::vector<SweptBox> boxes;
         for (const auto* draws : {&frame.opaque.still, &frame.opaque.moving})
@@ -260,7 +261,8 @@ dmat4 clipFromPicture(const ViewRequest& view, bool isPerspective, double neares
     rows[3] = isPerspective ? dvec4(0.0, 0.0, 1.0, 0.0) : dvec4(0.0, 0.0, 0.0, 1.0);
     rows[0] = dvec4(2.0 / width, 0.0, 0.0, 0.0) - rows[3];
     rows[1] = dvec4(0.0, 2.0 / height, 0.0, 0.0) - rows[3];
-    // Perspective: z = near, and w is the depth. Orthographic: half at the near plane, less behind.
+    // z exceeds w before the near plane alone. Perspective: z = near, w is the depth. Orthographic:
+    // z is 1 at the near plane and falls by 1e-6 per metre.
     rows[2] = isPerspective ? dvec4(0.0, 0.0, 0.0, nearest)
                             : dvec4(0.0, 0.0, -1.0e-6, 1.0 + 1.0e-6 * nearest);
     return glm::transpose(rows);

@@ -39,7 +39,7 @@ struct SceneLayout {
         scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
         bool doubleSided = false;
         uint32_t vertexCount = 0;
-        /// Of the same triangles from the last to the first, for blended geometries.
+        /// First index of the same triangles in reverse order, for blended geometries.
         uint32_t firstReversed = 0;
         bool premultiplies = false; ///< blended, and not scene::BlendMode::Over
     };
