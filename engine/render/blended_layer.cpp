@@ -62,7 +62,6 @@ class BlendedLayerPass::Recorder {
         : mPass(pass), mContext(context), mLayer(layer), mBindings(bindings),
           mTables(pass.mTables.at(slot).address()) {
         mDraw.frame = gpu::splitAddress(frameConstants);
-        mDraw.originPx = layer.originPx;
     }
 
     void record(uint32_t part, const math::uvec2& pictureSize, bool isPerspective) {

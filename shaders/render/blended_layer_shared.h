@@ -35,7 +35,6 @@ struct LayerDraw {
     uint geometry;
     uvec2 place;    // address of LayerPlace
     uvec2 instant;  // address of LayerInstant
-    uvec2 originPx; // of the layer in the picture
     uint index;     // of the instant
     uint isPerspective;
 };
@@ -45,7 +44,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::LayerPlace) == 112);
 static_assert(sizeof(shutter::shader::LayerInstant) == 64);
-static_assert(sizeof(shutter::shader::LayerDraw) == 48);
+static_assert(sizeof(shutter::shader::LayerDraw) == 40);
 #endif
 
 #endif
