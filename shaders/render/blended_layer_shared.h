@@ -33,9 +33,9 @@ struct LayerDraw {
     uvec2 frame; // address of FrameConstants
     uint entity;
     uint geometry;
-    uvec2 place;    // address of LayerPlace
-    uvec2 instant;  // address of LayerInstant
-    uint index;     // of the instant
+    uvec2 place;   // address of LayerPlace
+    uvec2 instant; // address of LayerInstant
+    uint index;    // of the instant
     uint isPerspective;
 };
 
