@@ -3,6 +3,7 @@
 
 #include "engine/extract/frame_view.h"
 #include "engine/extract/raster_record.h"
+#include "engine/extract/swept_scene.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -21,192 +22,8 @@ using math::dvec4;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Times at which boxes are looked at; what turns bulges out between them by less than the margin.
-constexpr size_t kSweepTimes = 9;
-constexpr double kSweptMarginPx = 2.0;
-/// More movers than these are not looked at one by one.
-constexpr size_t kMostSweptMovers = 64;
 /// What moves less does not move in the picture.
 constexpr double kStillWayPx = 0.5;
-/// Nearest depth at which a box has corners in the picture, metres.
-constexpr double kLeastBoxDepth = 1.0e-4;
-
-/// Where an entity is in the picture in the course of the exposure.
-struct SweptBox {
-    dvec2 least{kFar}; ///< pixels
-    dvec2 most{-kFar};
-    double nearest = kFar; ///< metres along the view
-    double farthest = -kFar;
-    double wayPx = 0.0; ///< longest, of a corner; infinity: not known
-
-    void spread() {
-        least = dvec2(-kFar);
-        most = dvec2(kFar);
-        wayPx = kFar;
-    }
-};
-
-bool overlap(const SweptBox& a, const SweptBox& b) {
-    return a.least.x <= b.most.x && b.least.x <= a.most.x && a.least.y <= b.most.y &&
-           b.least.y <= a.most.y;
-}
-
-math::Bounds findExposureBounds(
-    const ExtractedFrame& frame,
-    const SceneLayout& layout,
-    const DeformedEntity* shape,
-    uint32_t row
-) {
-    math::Bounds bounds = findRowBounds(frame, layout, row);
-    if (shape && shape->changes)
-        for (const scene::Deformation* pose : {&shape->open, &shape->close})
-            bounds.add(scene::computeDeformedBounds(*shape->reach, *pose));
-    return bounds;
-}
-
-/// How far a vertex of a shape goes at most from shutter open to close in its own space, to within
-/// a factor of two, metres.
-double measureDeformation(const DeformedEntity& shape) {
-    double tolerance = measureRounding(shape.bounds);
-    for (int doublings = 0; doublings < 64; ++doublings, tolerance *= 2.0)
-        if (isNear(shape.open, shape.close, *shape.reach, tolerance))
-            return doublings == 0 ? 0.0 : tolerance;
-    return kFar;
-}
-
-/// Pixels that a metre across the line of sight is long at a depth of a metre, or at any before an
-/// orthographic camera. \param picture picture space from the world
-double measureFocalLength(const dmat4& picture) {
-    const dmat4 rows = glm::transpose(picture);
-    const math::dvec3 forward(rows[2]);
-    const math::dvec3 across(rows[0]);
-    return glm::length(across - forward * glm::dot(across, forward));
-}
-
-/// What a layer is found in.
-struct LayerSource {
-    const scene::World& world;
-    const SceneLayout& layout;
-    const ViewRequest& view;
-    const scene::ExposureMotion& motion;
-    const ExtractedFrame& frame;
-};
-
-/// What both steps know of a frame.
-class LayerScene : public LayerSource {
-  public:
-    explicit LayerScene(const LayerSource& source)
-        : LayerSource(source),
-          isPerspective(
-              world.registry.get<scene::Camera>(view.camera).kind == scene::CameraKind::Perspective
-          ) {
-        for (size_t i = 0; i < kSweepTimes; ++i) {
-            mTimes[i] = double(i) / double(kSweepTimes - 1);
-            mPictures[i] = pictureFromWorldAt(world, view, motion, mTimes[i]);
-            cameraMoves = cameraMoves || mPictures[i] != mPictures[0];
-        }
-    }
-
-    /// In the world, during the exposure.
-    [[nodiscard]] bool moves(uint32_t row) const {
-        const DeformedEntity* const shape = findDeformed(frame, row);
-        return motion.mayObjectMove(frame.entityHandles[row]) || (shape && shape->changes);
-    }
-
-    [[nodiscard]] bool hasGeometry(uint32_t row, bool isBlended) const {
-        const uint32_t mesh = frame.entityMeshes[row];
-        for (uint32_t i = layout.firstGeometry[mesh]; i < layout.firstGeometry[mesh + 1]; ++i)
-            if ((layout.geometries[i].alphaMode == scene::AlphaMode::Blend) == isBlended)
-                return true;
-        return false;
-    }
-
-    [[nodiscard]] SweptBox sweep(uint32_t row) const {
-        const DeformedEntity* const shape = findDeformed(frame, row);
-        const math::Bounds bounds = findExposureBounds(frame, layout, shape, row);
-        const ecs::Entity entity = frame.entityHandles[row];
-        const bool isStill = !motion.mayObjectMove(entity);
-        SweptBox box;
-        std::array<dvec2, 8> before{};
-        std::array<double, 8> ways{};
-        bool isEverywhere = false;
-        for (size_t i = 0; i < kSweepTimes; ++i) {
-            const dmat4 picture =
-                mPictures[i] *
-                (isStill ? frame.worldFromObject[row] : motion.worldFromObject(entity, mTimes[i]));
-            for (size_t corner = 0; corner < 8; ++corner) {
-                const dvec4 at = picture * dvec4(
-                                               corner & 1 ? bounds.max.x : bounds.min.x,
-                                               corner & 2 ? bounds.max.y : bounds.min.y,
-                                               corner & 4 ? bounds.max.z : bounds.min.z,
-                                               1.0
-                                           );
-                const double q = isPerspective ? at.z : 1.0;
-                box.nearest = std::min(box.nearest, at.z);
-                box.farthest = std::max(box.farthest, at.z);
-                // Written so that NaN is everywhere, too.
-                if (!(q > kLeastBoxDepth)) {
-                    isEverywhere = true;
-                    continue;
-                }
-                const dvec2 place = dvec2(at) / q;
-                if (i > 0)
-                    ways[corner] += glm::distance(place, before[corner]);
-                before[corner] = place;
-                box.least = glm::min(box.least, place - kSweptMarginPx);
-                box.most = glm::max(box.most, place + kSweptMarginPx);
-            }
-        }
-        box.wayPx = *std::max_element(ways.begin(), ways.end());
-        if (shape && shape->changes) {
-            const double depth = isPerspective ? std::max(box.nearest, kLeastBoxDepth) : 1.0;
-            box.wayPx += measureDeformation(*shape) * measureFocalLength(mPictures[0]) / depth;
-        }
-        if (isEverywhere)
-            box.spread();
-        return box;
-    }
-
-    [[nodiscard]] bool isInPicture(const SweptBox& box) const {
-        return (!isPerspective || box.farthest > 0.0) && box.least.x < double(view.width) &&
-               box.most.x > 0.0 && box.least.y < double(view.height) && box.most.y > 0.0;
-    }
-
-    /// Boxes of the rows with opaque surfaces that move in the world; nullopt: more than
-    /// kMostSweptMovers.
-    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const {
-        std::vector<SweptBox> boxes;
-        for (const uint32_t row : frame.movingRows)
-            if (moves(row) && hasGeometry(row, false) && !addBox(row, boxes))
-                return std::nullopt;
-        return boxes;
-    }
-
-    /// Boxes of all rows with opaque surfaces that the raster shows; nullopt as above.
-    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaque() const {
-        std::vector<SweptBox> boxes;
-        for (const auto* draws : {&frame.opaque.still, &frame.opaque.moving})
-            for (const DrawItem& item : *draws)
-                if (!addBox(item.entity, boxes))
-                    return std::nullopt;
-        return boxes;
-    }
-
-    const bool isPerspective;
-    bool cameraMoves = false;
-
-  private:
-    /// \return false: there are more than are looked at
-    bool addBox(uint32_t row, std::vector<SweptBox>& boxes) const {
-        const SweptBox box = sweep(row);
-        if (isInPicture(box))
-            boxes.push_back(box);
-        return boxes.size() <= kMostSweptMovers;
-    }
-
-    std::array<double, kSweepTimes> mTimes{};
-    std::array<dmat4, kSweepTimes> mPictures{};
-};
 
 /// A row with blended surfaces.
 struct Blended {
@@ -215,7 +32,7 @@ struct Blended {
     bool isInLayer = false;
 };
 
-std::vector<Blended> listBlended(const LayerScene& scene) {
+std::vector<Blended> listBlended(const SweptScene& scene) {
     std::vector<Blended> rows;
     const auto add = [&](uint32_t row, bool moves) {
         const SweptBox box = scene.sweep(row);
@@ -271,7 +88,7 @@ dmat4 clipFromPicture(const ViewRequest& view, bool isPerspective, double neares
 /// Builds the layer of one frame.
 class LayerPlanner {
   public:
-    LayerPlanner(const LayerSource& source, const LayerLimits& limits)
+    LayerPlanner(const SweptSource& source, const LayerLimits& limits)
         : mScene(source), mLimits(limits) {}
 
     BlendedLayer run() {
@@ -438,7 +255,7 @@ class LayerPlanner {
             std::isnan(distance) ? std::numeric_limits<float>::infinity() : float(distance)};
     }
 
-    LayerScene mScene;
+    SweptScene mScene;
     LayerLimits mLimits;
     BlendedLayer mLayer;
     bool mIsHidden = false;     ///< opaque surfaces may hide other parts of it at other instants
@@ -460,7 +277,7 @@ std::vector<uint32_t> findLayerRows(
 ) {
     if (!layout.hasBlended)
         return {};
-    const LayerScene scene({world, layout, view, motion, frame});
+    const SweptScene scene({world, layout, view, motion, frame});
     std::vector<Blended> rows = listBlended(scene);
     if (rows.empty())
         return {};

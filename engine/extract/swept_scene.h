@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Where entities are in the picture in the course of an exposure, as boxes.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/math/math.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/world.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Where an entity is in the picture in the course of the exposure.
+struct SweptBox {
+    math::dvec2 least{std::numeric_limits<double>::infinity()}; ///< pixels
+    math::dvec2 most{-std::numeric_limits<double>::infinity()};
+    double nearest = std::numeric_limits<double>::infinity(); ///< metres along the view
+    double farthest = -std::numeric_limits<double>::infinity();
+    double wayPx = 0.0; ///< longest, of a corner; infinity: not known
+
+    /// Takes in the whole picture.
+    void spread();
+};
+
+[[nodiscard]] bool overlap(const SweptBox& a, const SweptBox& b);
+
+/// What boxes are swept in. What it refers to must outlive it.
+struct SweptSource {
+    const scene::World& world;
+    const SceneLayout& layout;
+    const ViewRequest& view;
+    const scene::ExposureMotion& motion; ///< of the view's exposure
+    const ExtractedFrame& frame;         ///< of the view
+};
+
+class SweptScene : public SweptSource {
+  public:
+    explicit SweptScene(const SweptSource& source);
+
+    /// In the world, during the exposure.
+    [[nodiscard]] bool moves(uint32_t row) const;
+    /// Whether the row's mesh has blended surfaces, or else any others.
+    [[nodiscard]] bool hasGeometry(uint32_t row, bool isBlended) const;
+    [[nodiscard]] SweptBox sweep(uint32_t row) const;
+    [[nodiscard]] bool isInPicture(const SweptBox& box) const;
+    /// Boxes of the rows with opaque surfaces that move in the world; nullopt: more than are swept
+    /// one by one.
+    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const;
+    /// Boxes of all rows with opaque surfaces that the raster shows; nullopt as above.
+    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaque() const;
+
+    const bool isPerspective;
+    bool cameraMoves = false;
+
+  private:
+    /// Times at which boxes are looked at; what turns bulges out between them by less than the
+    /// margin.
+    static constexpr size_t kTimes = 9;
+
+    /// \return false: there are more than are looked at
+    bool addBox(uint32_t row, std::vector<SweptBox>& boxes) const;
+
+    std::array<double, kTimes> mTimes{};
+    std::array<math::dmat4, kTimes> mPictures{};
+};
+
+} // namespace shutter::extract
