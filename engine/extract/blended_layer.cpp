@@ -104,7 +104,7 @@ class LayerPlanner {
         mLayer.readsInstants = mLimits.findsInstants && (mIsHidden || mIsCorrelated);
         uint32_t count = countInstants();
         if (mLayer.readsInstants)
-            count = fitInstants(count);
+            count = fitLayer(count);
         mLayer.partCount = mLayer.readsInstants ? std::min(count, shader::kMostSurfaceParts) : 1;
         addInstants(count);
         addItems();
@@ -159,16 +159,12 @@ class LayerPlanner {
     }
 
     /// As many as there is memory for; without enough for one, none is looked up.
-    uint32_t fitInstants(uint32_t count) {
-        shader::InstantSurfaces head = mLayer.surfaces();
-        for (; count > 0; --count) {
-            head.instantCount = count;
-            head.partCount = std::min(count, shader::kMostSurfaceParts);
-            const uint64_t words =
-                uint64_t(shader::surfaceWordsPerPixel(head)) * head.sizePx.x * head.sizePx.y;
-            if (words * sizeof(uint32_t) + sizeof(head) <= mLimits.surfaceBytes)
-                return count;
-        }
+    uint32_t fitLayer(uint32_t count) {
+        shader::InstantSurfaces wanted = mLayer.surfaces();
+        wanted.instantCount = count;
+        wanted.partCount = shader::kMostSurfaceParts;
+        if (const uint32_t fitting = fitInstants(wanted, mLimits.surfaceBytes))
+            return fitting;
         mLayer.readsInstants = false;
         return countInstants();
     }
@@ -267,6 +263,18 @@ class LayerPlanner {
 };
 
 } // namespace
+
+uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes) {
+    const uint32_t parts = wanted.partCount;
+    for (; wanted.instantCount > 0; --wanted.instantCount) {
+        wanted.partCount = std::min(wanted.instantCount, parts);
+        const uint64_t words =
+            uint64_t(shader::surfaceWordsPerPixel(wanted)) * wanted.sizePx.x * wanted.sizePx.y;
+        if (words * sizeof(uint32_t) + sizeof(wanted) <= bytes)
+            break;
+    }
+    return wanted.instantCount;
+}
 
 std::vector<uint32_t> findLayerRows(
     const scene::World& world,

@@ -65,6 +65,9 @@ struct LayerLimits {
     uint64_t surfaceBytes = 0;  ///< most memory for them
 };
 
+/// As many of the wanted instants as a buffer of that size holds; 0: not even one.
+[[nodiscard]] uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes);
+
 /// \param frame whose `layerRows` findLayerRows() found
 /// \param view its jitter is that of the colours that the layer is drawn over
 [[nodiscard]] BlendedLayer planBlendedLayer(

@@ -244,7 +244,9 @@ class Extraction {
         const math::vec3 place = shader::particlePlace(row, emitterRow, age);
         const float depth = glm::dot(place, math::vec3(mForward));
         sorted.key = uint64_t(~orderedBits(depth)) << 32 | uint32_t(mRows.size());
-        if ((emitterRow.flags & shader::kParticleAdd) != 0)
+        if ((emitterRow.flags & shader::kParticleAdd) == 0)
+            mTables.hides = true;
+        else
             for (const math::vec4& color : emitterRow.colors)
                 mBrightest += double(color.a) * double(std::max({color.r, color.g, color.b})) / 3.0;
         mRows.push_back(sorted);
@@ -285,8 +287,8 @@ class Extraction {
         return math::vec3(math::vec2(clip) / clip.w * half, radius);
     }
 
-    /// How far it goes, pixels, and its radius, where it is seen.
-    [[nodiscard]] std::optional<math::vec2> measureWay(const shader::ParticleRow& row) const {
+    /// How far it goes, pixels, and its radius, where it is seen; takes it into the tables' box.
+    [[nodiscard]] std::optional<math::vec2> measureWay(const shader::ParticleRow& row) {
         const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
         const math::vec2 alive =
             shader::particleLifetime(row, emitter, mTables.rasterTime, 0.0f, 1.0f);
@@ -300,7 +302,15 @@ class Extraction {
             glm::min(glm::abs(math::vec2(*first)), glm::abs(math::vec2(*last)));
         if (!(radius > 0.0f) || glm::any(glm::greaterThan(nearest, half + 1.5f * radius)))
             return std::nullopt;
-        return math::vec2(glm::distance(math::vec2(*first), math::vec2(*last)), radius);
+        const float way = glm::distance(math::vec2(*first), math::vec2(*last));
+        // What bends goes no farther aside than half of that.
+        const math::vec2 aside(1.5f * radius + 0.5f * way);
+        for (const math::vec3& end : {*first, *last}) {
+            const math::vec2 place = math::vec2(end) + half;
+            mTables.leastPx = glm::min(mTables.leastPx, math::dvec2(place - aside));
+            mTables.mostPx = glm::max(mTables.mostPx, math::dvec2(place + aside));
+        }
+        return math::vec2(way, radius);
     }
 
     /// As many parts as the fastest picture needs instants, which are a quarter of its size apart.

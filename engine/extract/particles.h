@@ -10,6 +10,7 @@
 #include "shaders/common/particle_shared.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace shutter::extract {
@@ -30,6 +31,10 @@ struct ParticleTables {
     /// shader::kMaxParticleParts].
     uint32_t parts = 1;
     float longestWayPx = 0.0f; ///< of any that is seen, in the exposure
+    /// Corners of the part of the picture that particles cover in the exposure, and some more.
+    math::dvec2 leastPx{std::numeric_limits<double>::infinity()};
+    math::dvec2 mostPx{-std::numeric_limits<double>::infinity()};
+    bool hides = false; ///< some have opacity: they do not only add light
     /// What they may add up to is more than the picture can hold.
     bool mayOverflow = false;
 

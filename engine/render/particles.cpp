@@ -26,31 +26,11 @@ VkDeviceSize alignPart(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
 }
 
-gpu::GraphicsPipelineDesc
-describeDraw(const gpu_scene::GpuScene& scene, VkFormat format, bool isLayer) {
-    gpu::GraphicsPipelineDesc desc;
-    desc.name = "particles";
-    desc.vertexSpirv = render_particle_vert;
-    desc.fragmentSpirv = render_particle_frag;
-    desc.interface.bindings = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-    desc.interface.pushConstantBytes = sizeof(shader::ParticleDraw);
-    desc.interface.sceneLayout = scene.textureLayout();
-    desc.colorFormats = {format};
-    desc.blend = isLayer ? gpu::Blend::PremultipliedLayer : gpu::Blend::Premultiplied;
-    return desc;
-}
-
-gpu::GraphicsPipelineDesc describeComposite(VkFormat format) {
-    gpu::GraphicsPipelineDesc desc;
-    desc.name = "particle composite";
-    desc.vertexSpirv = render_sky_vert;
-    desc.fragmentSpirv = render_particle_composite_frag;
-    desc.interface.bindings.assign(
-        1 + shader::kMaxParticleParts, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-    );
-    desc.interface.pushConstantBytes = sizeof(uint32_t);
-    desc.colorFormats = {format};
-    return desc;
+/// In how many parts of the exposure the particles are drawn: as many as their textures or what
+/// lies behind them needs. Each lies in one of those behind.
+uint32_t countDraws(const extract::ParticleTables& tables, const ParticleTargets& targets) {
+    const uint32_t behind = targets.instants ? targets.instants->rectangle.partCount : 1;
+    return tables.parts <= behind ? behind : behind > 1 ? shader::kMaxParticleParts : tables.parts;
 }
 
 /// Whether passes can draw on it as it is.
@@ -90,59 +70,128 @@ shader::ParticleDraw ParticleBuffer::upload(const extract::ParticleTables& table
     return draw;
 }
 
-const gpu::Pipeline& ParticlePass::findDraw(VkFormat format, bool isLayer) {
-    const auto known = mDraws.find({format, isLayer});
+const gpu::Pipeline& ParticlePass::findDraw(const DrawKey& key) {
+    const auto known = mDraws.find(key);
     if (known != mDraws.end())
         return known->second;
-    return mDraws
-        .emplace(
-            std::pair(format, isLayer),
-            gpu::Pipeline(mDevice, describeDraw(mScene, format, isLayer))
-        )
-        .first->second;
+    gpu::GraphicsPipelineDesc desc;
+    desc.name = "particles";
+    desc.vertexSpirv = render_particle_vert;
+    desc.fragmentSpirv = render_particle_frag;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    desc.interface.pushConstantBytes = sizeof(shader::ParticleDraw);
+    desc.interface.sceneLayout = mScene.textureLayout();
+    desc.colorFormats = {key.format};
+    desc.blend = key.isLayer ? gpu::Blend::PremultipliedLayer : gpu::Blend::Premultiplied;
+    desc.specialization = {key.readsInstants ? 1u : 0u};
+    return mDraws.emplace(key, gpu::Pipeline(mDevice, desc)).first->second;
 }
 
-const gpu::Pipeline& ParticlePass::findComposite(VkFormat format) {
-    const auto known = mComposites.find(format);
+const gpu::Pipeline& ParticlePass::findComposite(const CompositeKey& key) {
+    const auto known = mComposites.find(key);
     if (known != mComposites.end())
         return known->second;
-    return mComposites.emplace(format, gpu::Pipeline(mDevice, describeComposite(format)))
-        .first->second;
+    gpu::GraphicsPipelineDesc desc;
+    desc.name = "particle composite";
+    desc.vertexSpirv = render_sky_vert;
+    desc.fragmentSpirv = render_particle_composite_frag;
+    desc.interface.bindings.assign(
+        1 + shader::kMaxParticleParts, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+    );
+    desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    desc.interface.pushConstantBytes = sizeof(uint32_t);
+    desc.colorFormats = {key.format};
+    desc.specialization = {key.readsInstants ? 1u : 0u};
+    return mComposites.emplace(key, gpu::Pipeline(mDevice, desc)).first->second;
 }
 
 graph::ImageHandle ParticlePass::declareDraw(
-    graph::Graph& graph,
-    const std::string& name,
-    const ParticleTargets& targets,
-    graph::ImageHandle target,
-    const shader::ParticleDraw& draw,
-    uint32_t count,
-    bool isLayer
+    const Draws& draws, graph::ImageHandle target, const shader::ParticleDraw& draw, bool isLayer
 ) {
     struct Data {
         graph::ImageHandle target;
         graph::ImageHandle depth;
+        graph::BufferHandle instants;
     };
 
-    const gpu::Pipeline& pipeline = findDraw(graph.describeImage(target).format, isLayer);
-    return graph
+    const ParticleTargets& targets = draws.targets;
+    const gpu::Pipeline& pipeline =
+        findDraw({draws.graph.describeImage(target).format, isLayer, targets.instants.has_value()});
+    return draws.graph
         .addPass<Data>(
-            name,
+            "particles",
             graph::PassKind::Raster,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.depth = builder.read(targets.motionDepth, graph::Access::SampledFragment);
+                if (targets.instants)
+                    data.instants =
+                        builder.read(targets.instants->words, graph::Access::ShaderRead);
                 std::optional<graph::ClearColor> clear;
                 if (isLayer)
                     clear = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 1.0f);
                 data.target = builder.colorTarget(target, clear);
             },
-            [this, &pipeline, draw, count](const Data& data, graph::PassContext& context) {
+            [this, &pipeline, draw, tables = draws.tables, count = draws.count](
+                const Data& data, graph::PassContext& context
+            ) {
                 gpu::BindingList bindings;
                 bindings.sampled(context.resources.view(data.depth), mDevice.nearestSampler());
+                bindings.buffer(
+                    data.instants.isValid() ? context.resources.buffer(data.instants) : tables
+                );
                 context.frame.bind(pipeline, bindings, &draw, sizeof(draw), mScene.textureSet());
                 vkCmdSetCullMode(context.commands, VK_CULL_MODE_NONE);
                 vkCmdSetFrontFace(context.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
                 vkCmdDraw(context.commands, kCorners, count, 0, 0);
+            }
+        )
+        .target;
+}
+
+graph::ImageHandle
+ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageHandle> layers) {
+    struct Data {
+        graph::ImageHandle color;
+        std::array<graph::ImageHandle, shader::kMaxParticleParts> parts;
+        graph::BufferHandle instants;
+        graph::ImageHandle target;
+    };
+
+    const ParticleTargets& targets = draws.targets;
+    const graph::TransientImageDesc desc = draws.graph.describeImage(targets.color);
+    const gpu::Pipeline& pipeline = findComposite({desc.format, targets.instants.has_value()});
+    const auto target = draws.graph.createImage("color with particles", desc);
+    return draws.graph
+        .addPass<Data>(
+            "particle composite",
+            graph::PassKind::Raster,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.color = builder.read(targets.color, graph::Access::SampledFragment);
+                for (size_t i = 0; i < data.parts.size(); ++i)
+                    data.parts[i] = i < layers.size()
+                                        ? builder.read(layers[i], graph::Access::SampledFragment)
+                                        : data.parts[0];
+                if (targets.instants)
+                    data.instants =
+                        builder.read(targets.instants->words, graph::Access::ShaderRead);
+                data.target =
+                    builder.colorTarget(target, graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f));
+            },
+            [this, &pipeline, tables = draws.tables, count = uint32_t(layers.size())](
+                const Data& data, graph::PassContext& context
+            ) {
+                gpu::BindingList bindings;
+                bindings.sampled(context.resources.view(data.color), mDevice.nearestSampler());
+                for (const graph::ImageHandle part : data.parts)
+                    bindings.sampled(context.resources.view(part), mDevice.nearestSampler());
+                bindings.buffer(
+                    data.instants.isValid() ? context.resources.buffer(data.instants) : tables
+                );
+                context.frame.bind(pipeline, bindings, &count, sizeof(count));
+                vkCmdSetCullMode(context.commands, VK_CULL_MODE_NONE);
+                vkCmdSetFrontFace(context.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+                vkCmdDraw(context.commands, 3, 1, 0, 0);
             }
         )
         .target;
@@ -160,52 +209,20 @@ graph::ImageHandle ParticlePass::declare(
     const graph::TransientImageDesc desc = graph.describeImage(targets.color);
     draw.jitter =
         math::vec2(-2.0 * targets.jitterPx / math::dvec2(double(desc.width), double(desc.height)));
-    const auto count = static_cast<uint32_t>(tables.rows.size());
     draw.lightShare = tables.isInstant ? math::vec2(0.0f) : math::vec2(0.0f, 1.0f);
-    if (tables.parts == 1 && !tables.mayOverflow && isDrawable(graph, targets.color))
-        return declareDraw(graph, "particles", targets, targets.color, draw, count, false);
-
-    struct Data {
-        graph::ImageHandle color;
-        std::array<graph::ImageHandle, shader::kMaxParticleParts> parts;
-        graph::ImageHandle target;
-    };
-
+    const Draws draws{graph, targets, buffer.handle(), static_cast<uint32_t>(tables.rows.size())};
+    const uint32_t parts = countDraws(tables, targets);
+    if (parts == 1 && !tables.mayOverflow && isDrawable(graph, targets.color))
+        return declareDraw(draws, targets.color, draw, false);
     std::vector<graph::ImageHandle> layers;
-    for (uint32_t part = 0; part < tables.parts; ++part) {
-        if (tables.parts > 1)
-            draw.lightShare = math::vec2(float(part), float(part + 1)) / float(tables.parts);
+    for (uint32_t part = 0; part < parts; ++part) {
+        if (parts > 1)
+            draw.lightShare = math::vec2(float(part), float(part + 1)) / float(parts);
         const auto layer =
             graph.createImage("particles", {desc.width, desc.height, kParticleFormat});
-        layers.push_back(declareDraw(graph, "particles", targets, layer, draw, count, true));
+        layers.push_back(declareDraw(draws, layer, draw, true));
     }
-    const gpu::Pipeline& pipeline = findComposite(desc.format);
-    const auto target = graph.createImage("color with particles", desc);
-    return graph
-        .addPass<Data>(
-            "particle composite",
-            graph::PassKind::Raster,
-            [&](graph::PassBuilder& builder, Data& data) {
-                data.color = builder.read(targets.color, graph::Access::SampledFragment);
-                for (size_t i = 0; i < data.parts.size(); ++i)
-                    data.parts[i] = i < layers.size()
-                                        ? builder.read(layers[i], graph::Access::SampledFragment)
-                                        : data.parts[0];
-                data.target =
-                    builder.colorTarget(target, graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f));
-            },
-            [this, &pipeline, parts = tables.parts](const Data& data, graph::PassContext& context) {
-                gpu::BindingList bindings;
-                bindings.sampled(context.resources.view(data.color), mDevice.nearestSampler());
-                for (const graph::ImageHandle part : data.parts)
-                    bindings.sampled(context.resources.view(part), mDevice.nearestSampler());
-                context.frame.bind(pipeline, bindings, &parts, sizeof(parts));
-                vkCmdSetCullMode(context.commands, VK_CULL_MODE_NONE);
-                vkCmdSetFrontFace(context.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-                vkCmdDraw(context.commands, 3, 1, 0, 0);
-            }
-        )
-        .target;
+    return declareComposite(draws, layers);
 }
 
 } // namespace shutter::render

@@ -7,11 +7,21 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
+#include "shaders/common/instant_surfaces.glsl"
 
+#include <compare>
 #include <map>
-#include <string>
+#include <optional>
+#include <span>
 
 namespace shutter::render {
+
+/// What pixels of a rectangle saw at instants of the exposure.
+struct ParticleInstants {
+    shader::InstantSurfaces rectangle;
+    graph::BufferHandle
+        words; ///< the rectangle, and what shaders/common/instant_surfaces.glsl says
+};
 
 /// What particles are drawn on, and what they are drawn with.
 struct ParticleTargets {
@@ -20,6 +30,8 @@ struct ParticleTargets {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     math::dvec2 jitterPx{0.0};          ///< of the colour (ViewRequest::jitterPx)
+    /// Of the blurred picture that is drawn on; nothing: the raster's depth hides everywhere.
+    std::optional<ParticleInstants> instants{};
 };
 
 /// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
@@ -30,6 +42,9 @@ class ParticleBuffer {
     /// \param tables not empty
     /// \return without what ParticleTargets says
     [[nodiscard]] shader::ParticleDraw upload(const extract::ParticleTables& tables);
+
+    /// Of what upload() wrote.
+    [[nodiscard]] VkBuffer handle() const { return mBuffer.handle(); }
 
   private:
     gpu::Device& mDevice;
@@ -52,22 +67,44 @@ class ParticlePass {
     );
 
   private:
-    const gpu::Pipeline& findDraw(VkFormat format, bool isLayer);
-    const gpu::Pipeline& findComposite(VkFormat format);
+    struct DrawKey {
+        VkFormat format; ///< of the target
+        bool isLayer;    ///< that is composited later
+        bool readsInstants;
+
+        auto operator<=>(const DrawKey&) const = default;
+    };
+
+    struct CompositeKey {
+        VkFormat format; ///< of the target
+        bool readsInstants;
+
+        auto operator<=>(const CompositeKey&) const = default;
+    };
+
+    /// What all draws of a picture share.
+    struct Draws {
+        graph::Graph& graph;
+        const ParticleTargets& targets;
+        VkBuffer tables; ///< in place of instants that there are none of
+        uint32_t count;  ///< of particles
+    };
+
+    const gpu::Pipeline& findDraw(const DrawKey& key);
+    const gpu::Pipeline& findComposite(const CompositeKey& key);
     graph::ImageHandle declareDraw(
-        graph::Graph& graph,
-        const std::string& name,
-        const ParticleTargets& targets,
+        const Draws& draws,
         graph::ImageHandle target,
         const shader::ParticleDraw& draw,
-        uint32_t count,
         bool isLayer
     );
+    graph::ImageHandle
+    declareComposite(const Draws& draws, std::span<const graph::ImageHandle> layers);
 
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    std::map<std::pair<VkFormat, bool>, gpu::Pipeline> mDraws; ///< by format of the target
-    std::map<VkFormat, gpu::Pipeline> mComposites;
+    std::map<DrawKey, gpu::Pipeline> mDraws;
+    std::map<CompositeKey, gpu::Pipeline> mComposites;
 };
 
 } // namespace shutter::render

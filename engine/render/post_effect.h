@@ -11,6 +11,7 @@
 #include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
+#include "engine/render/particles.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/world.h"
 
@@ -95,6 +96,8 @@ struct ExtractContext {
     /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
+    /// What is drawn over the effect's picture (PostEffect::askParticles); null: nothing.
+    const extract::ParticleTables* particles = nullptr;
 };
 
 /// A raster of the world at another time. What it points to lives as long as the graph.
@@ -128,6 +131,9 @@ struct PostContext {
     /// What the frame's submission waits for and signals; set by an effect that draws on an image
     /// of the window system.
     gpu::SubmitSemaphores semaphores{};
+    /// What the particles that are drawn next are hidden by and lie over; set by an effect that
+    /// found it.
+    std::optional<ParticleInstants> particleInstants{};
 };
 
 /// A frame that the GPU is done with, as one effect sees it.

@@ -126,7 +126,8 @@ graph::ImageHandle Renderer::declareParticles(
     const FrameParts& parts,
     const DeclaredScene& scene,
     graph::ImageHandle color,
-    const math::dvec2& jitterPx
+    const math::dvec2& jitterPx,
+    const std::optional<ParticleInstants>& instants
 ) {
     return mParticlePass.declare(
         parts.graph,
@@ -136,7 +137,8 @@ graph::ImageHandle Renderer::declareParticles(
          .motionDepth = scene.gbuffer.motionDepth,
          .frameConstants = scene.tables.constants,
          .response = scene.tables.response,
-         .jitterPx = jitterPx}
+         .jitterPx = jitterPx,
+         .instants = instants}
     );
 }
 
@@ -210,10 +212,10 @@ core::Status Renderer::submitFrame(
         ),
         frame
     ));
-    SHUTTER_TRY(extractForEffects(slot, context, running));
     const auto particles = extractParticles(context, request, running);
     if (!particles)
         return particles.error();
+    SHUTTER_TRY(extractForEffects(slot, context, particles.value(), running));
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -347,8 +349,9 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
         rays.frameConstants
     );
     if (!running.particles.run && !particles.empty())
-        scene.gbuffer.color =
-            declareParticles(parts, scene, scene.gbuffer.color, request.view.jitterPx);
+        scene.gbuffer.color = declareParticles(
+            parts, scene, scene.gbuffer.color, request.view.jitterPx, std::nullopt
+        );
     return scene;
 }
 
@@ -369,7 +372,9 @@ void Renderer::declareEffects(
             running.particlesAt != effectsBefore)
             return;
         explainer.beginPasses(graph, PassOwner::Blur, running.particles.reason);
-        context.color = declareParticles(parts, scene, context.color, parts.particleJitterPx);
+        context.color = declareParticles(
+            parts, scene, context.color, parts.particleJitterPx, context.particleInstants
+        );
     };
     declareOwnParticles(0);
     for (RunningEffect& one : running.effects) {

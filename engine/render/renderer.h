@@ -252,8 +252,12 @@ class Renderer {
     ) const;
     /// Extracts what the running effects look up beside the frame's own raster, and what they need
     /// of the world themselves.
-    [[nodiscard]] core::Status
-    extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running);
+    [[nodiscard]] core::Status extractForEffects(
+        Slot& slot,
+        ExtractContext& context,
+        const extract::ParticleTables& particles,
+        const RunningEffects& running
+    );
     /// Extracts the particles that the frame draws.
     [[nodiscard]] core::Result<extract::ParticleTables> extractParticles(
         const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
@@ -263,7 +267,8 @@ class Renderer {
         const FrameParts& parts,
         const DeclaredScene& scene,
         graph::ImageHandle color,
-        const math::dvec2& jitterPx
+        const math::dvec2& jitterPx,
+        const std::optional<ParticleInstants>& instants
     );
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.

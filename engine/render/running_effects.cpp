@@ -79,8 +79,12 @@ core::Decision Renderer::decideLayer(
     return decision;
 }
 
-core::Status
-Renderer::extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running) {
+core::Status Renderer::extractForEffects(
+    Slot& slot,
+    ExtractContext& context,
+    const extract::ParticleTables& particles,
+    const RunningEffects& running
+) {
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
     if (running.secondRaster.run)
@@ -92,7 +96,10 @@ Renderer::extractForEffects(Slot& slot, ExtractContext& context, const RunningEf
         SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
         SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before, hidden));
     }
-    for (const RunningEffect& one : running.effects) {
+    for (size_t i = 0; i < running.effects.size(); ++i) {
+        const RunningEffect& one = running.effects[i];
+        const bool hasParticles = running.particles.run && running.particlesAt == i + 1;
+        context.particles = hasParticles ? &particles : nullptr;
         context.secondRaster.reset();
         context.lastRaster.reset();
         if (one.readsSecondRaster)

@@ -93,7 +93,7 @@ struct MotionBlurInputs {
     int64_t frameNumber = 0;
     /// What each pixel of a rectangle of the picture saw at some of the instants is wanted
     /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; others leave nothing.
-    std::optional<shader::InstantSurfaces> surfaces;
+    std::vector<shader::InstantSurfaces> surfaces;
     /// False: the frame is drawn for what RasterHistory keeps of it alone. For
     /// Method::readsInstantMotions, which then needs no timed rays.
     bool wantsPicture = true;
@@ -123,9 +123,10 @@ struct View {
 };
 
 struct MotionBlurOutputs {
-    graph::ImageHandle color;     ///< RGBA16F: the blurred picture
-    graph::BufferHandle surfaces; ///< MotionBlurInputs::surfaces and its words; invalid: none
-    std::vector<View> views;      ///< those of the method, README.md, "Debug views"
+    graph::ImageHandle color; ///< RGBA16F: the blurred picture
+    /// One for each of MotionBlurInputs::surfaces, with its words; empty: the method leaves none.
+    std::vector<graph::BufferHandle> surfaces;
+    std::vector<View> views; ///< those of the method, README.md, "Debug views"
 
     /// Invalid: the method has no such view.
     [[nodiscard]] graph::ImageHandle view(std::string_view name) const {

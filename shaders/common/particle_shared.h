@@ -158,6 +158,20 @@ SHUTTER_INLINE vec2 streakCoverage(vec2 point, vec2 way, float radius) {
     return vec2(max(sum, 0.0f) / lengthRadii, clamp(along, 0.0f, 1.0f));
 }
 
+/// The share of that way, from x to y, at which the particle covers the point that it passes.
+SHUTTER_INLINE vec2 streakSpan(vec2 point, vec2 way, float radius) {
+    float length_ = sqrt(dot(way, way));
+    float lengthRadii = length_ / radius;
+    if (lengthRadii < 0.01f)
+        return vec2(0.0f, 1.0f);
+    vec2 direction = way / length_;
+    float u = dot(point, direction) / radius;
+    float v = (point.x * direction.y - point.y * direction.x) / radius;
+    float reach = sqrt(max(1.0f - v * v, 0.0f));
+    float first = clamp((u - reach) / lengthRadii, 0.0f, 1.0f);
+    return vec2(first, clamp((u + reach) / lengthRadii, first, 1.0f));
+}
+
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus

@@ -23,11 +23,7 @@ layout(binding = 4, scalar) readonly buffer Surfaces {
     uint uWords[];
 };
 
-/// rgb: mean colour of a part; a: of how many instants.
-vec4 colorOfPart(uint part, uvec2 at) {
-    uint word = surfacePartWord(uHead, part, at);
-    return vec4(unpackHalf2x16(uWords[word]), unpackHalf2x16(uWords[word + 1u]));
-}
+#include "common/surface_parts.glsl"
 
 /// What the picture knows more than the colours of the parts, whose mean it is otherwise.
 vec3 findRest(vec3 picture, uvec2 at) {

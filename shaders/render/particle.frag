@@ -2,20 +2,24 @@
 // What a particle covers of a pixel's centre, mean over a part of the exposure: premultiplied.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "common/instant_surfaces.glsl"
 #include "render/particle.glsl"
 
-layout(binding = 0) uniform sampler2D uMotionDepth;
+layout(binding = 0) uniform sampler2D uMotionDepth; // of the raster
+layout(binding = 1, scalar) readonly buffer Surfaces {
+    InstantSurfaces uHead;
+    uint uWords[];
+};
 
 layout(location = 0) in vec2 inTextureUv;
 layout(location = 1) flat in vec4 inShape;
 layout(location = 2) flat in uint inTexture;
 layout(location = 3) flat in vec4 inPoints[5];
 layout(location = 8) flat in vec4 inColors[5];
+layout(location = 13) flat in vec2 inLight;
 
 layout(location = 0) out vec4 outColor;
-
-/// Metres along the view to the surface behind the pixel.
-float surfaceDepth() { return texelFetch(uMotionDepth, ivec2(gl_FragCoord.xy), 0).z; }
 
 /// How much of a particle lies before the surface.
 float showBefore(float surface, float depth, float softMetres) {
@@ -24,14 +28,34 @@ float showBefore(float surface, float depth, float softMetres) {
     return saturate(before / softMetres);
 }
 
+/// The same at the instants of a part of the light, in which its depth goes from x to y: their mean.
+float showAtInstants(uvec2 at, vec2 depths, vec2 light, float softMetres) {
+    float count = float(uHead.instantCount);
+    uint first = min(uint(light.x * count), uHead.instantCount - 1u);
+    uint end = clamp(uint(ceil(light.y * count)), first + 1u, uHead.instantCount);
+    float sum = 0.0f;
+    for (uint i = first; i < end; ++i) {
+        vec2 pair = unpackHalf2x16(uWords[surfaceDepthWord(uHead, i, at)]);
+        float passed = (float(i) + 0.5f) / count - light.x;
+        float depth = mix(depths.x, depths.y, saturate(passed / max(light.y - light.x, 1.0e-6f)));
+        sum += showBefore((i & 1u) == 0u ? pair.x : pair.y, depth, softMetres);
+    }
+    return sum / float(end - first);
+}
+
 void main() {
-    float surface = surfaceDepth();
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float surface = texelFetch(uMotionDepth, pixel, 0).z;
+    uvec2 at = uvec2(pixel) - uHead.originPx;
+    bool readsInstants = kReadsInstants && all(lessThan(at, uHead.sizePx));
     uint segments = uint(inShape.w);
     vec4 sum = vec4(0.0f);
     if (inTexture != kNoParticleTexture) {
         vec4 texel = sampleSceneTexture(inTexture, inTextureUv, inShape.x);
-        sum = inColors[0] * vec4(texel.rgb * texel.a, texel.a) *
-              showBefore(surface, inPoints[0].w, inShape.y);
+        float shown = readsInstants
+                          ? showAtInstants(at, inPoints[0].ww, inLight, inShape.y)
+                          : showBefore(surface, inPoints[0].w, inShape.y);
+        sum = inColors[0] * vec4(texel.rgb * texel.a, texel.a) * shown;
     } else {
         for (uint i = 0u; i < segments; ++i) {
             vec2 point = gl_FragCoord.xy - inPoints[i].xy;
@@ -40,9 +64,17 @@ void main() {
             float radius = mix(inPoints[i].z, inPoints[i + 1u].z, nearest);
             vec2 covered = streakCoverage(point, way, radius);
             if (covered.x <= 0.0f) continue;
-            float depth = mix(inPoints[i].w, inPoints[i + 1u].w, covered.y);
-            sum += mix(inColors[i], inColors[i + 1u], covered.y) *
-                   (covered.x * showBefore(surface, depth, inShape.y));
+            float shown;
+            if (readsInstants) {
+                vec2 span = streakSpan(point, way, radius);
+                vec2 depths = mix(inPoints[i].ww, inPoints[i + 1u].ww, span);
+                vec2 light = mix(inLight.xx, inLight.yy, (float(i) + span) / float(segments));
+                shown = showAtInstants(at, depths, light, inShape.y);
+            } else {
+                float depth = mix(inPoints[i].w, inPoints[i + 1u].w, covered.y);
+                shown = showBefore(surface, depth, inShape.y);
+            }
+            sum += mix(inColors[i], inColors[i + 1u], covered.y) * (covered.x * shown);
         }
         sum /= float(max(segments, 1u));
     }

@@ -20,6 +20,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
 
 layout(push_constant, scalar) uniform Push { ParticleDraw draw; };
 
+layout(constant_id = 0) const bool kReadsInstants = false; // depths of instants hide them
+
 /// Share of the light that is taken before s; a box takes it evenly.
 float lightBefore(float s) {
     if ((draw.response.x | draw.response.y) == 0u) return s;
@@ -30,7 +32,7 @@ float lightBefore(float s) {
 struct SeenParticle {
     vec2 placePx;
     float radiusPx;
-    float depth;   // metres along the raster's view
+    float depth;   // metres along the view: the raster's, or with kReadsInstants the instant's own
     float clipW;   // not above FrameConstants::forward.w: behind the camera
 };
 
@@ -49,7 +51,9 @@ SeenParticle seeParticle(FrameRef frame, ParticleRow row, ParticleEmitterRow emi
         clip = mix(clip, cameras.clipFromEye[uint(first) + 1u] * place, at - first);
     SeenParticle seen;
     seen.clipW = clip.w;
-    seen.depth = dot(place.xyz, frame.value.forward.xyz);
+    // Before an orthographic camera that reads instants the two are equal: it does not move.
+    bool isPerspective = frame.value.pixelFootprint.x > 0.0f;
+    seen.depth = kReadsInstants && isPerspective ? clip.w : dot(place.xyz, frame.value.forward.xyz);
     vec2 half_ = 0.5f * frame.value.sizePx;
     float w = max(clip.w, frame.value.forward.w);
     seen.placePx = (clip.xy / w + draw.jitter + 1.0f) * half_;

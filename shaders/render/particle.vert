@@ -11,6 +11,7 @@ layout(location = 1) flat out vec4 outShape;         // texture's level, softnes
 layout(location = 2) flat out uint outTexture;       // or kNoParticleTexture: a streak
 layout(location = 3) flat out vec4 outPoints[5];     // place and radius in pixels, depth in metres
 layout(location = 8) flat out vec4 outColors[5];     // premultiplied
+layout(location = 13) flat out vec2 outLight;        // of the exposure before the first and the last point
 
 const float kNoticeable = 0.1f; // change of a colour or a direction that takes one segment more
 
@@ -134,6 +135,7 @@ void main() {
     gl_Position = vec4(0.0f, 0.0f, 2.0f, 1.0f); // nowhere
     outTextureUv = corner;
     outShape = vec4(0.0f);
+    outLight = vec2(0.0f);
     outTexture = emitter.texture;
     for (uint i = 0u; i < 5u; ++i) outPoints[i] = outColors[i] = vec4(0.0f);
 
@@ -147,9 +149,10 @@ void main() {
                   : !(alive.x < alive.y))
         return;
     float share = 1.0f;
-    if (!isInstant)
-        share = (lightBefore(alive.y) - lightBefore(alive.x)) /
-                max(draw.lightShare.y - draw.lightShare.x, 1.0e-6f);
+    if (!isInstant) {
+        outLight = vec2(lightBefore(alive.x), lightBefore(alive.y));
+        share = (outLight.y - outLight.x) / max(draw.lightShare.y - draw.lightShare.x, 1.0e-6f);
+    }
     uint segments = 0u;
     vec2 placePx;
     float level = 0.0f;

@@ -248,6 +248,84 @@ TEST_F(ParticleLaw, WhatLiesBeforeThemHidesThem) {
     }
 }
 
+/// A wall of waves, puffs before it, and a box that sweeps between the near and the far ones.
+struct PuffScene : SceneBuilder {
+    explicit PuffScene(const ParticleEmitter& puffs) {
+        setPerspective(0.9);
+        add(test::makeQuad(9.0, 6.0, addWaves()), {.position = {0, 0, -4}});
+        for (const double depth : {-2.2, -3.4}) {
+            const ecs::Entity entity = world.registry.create();
+            math::Transform transform;
+            transform.translation = {0.0, 0.0, depth};
+            world.registry.add(entity, scene::LocalTransform{transform});
+            world.registry.add(entity, puffs);
+        }
+    }
+
+    void addSweep(double speed) {
+        add(test::makeBox({0.6, 0.7, 0.2}, addColor({0.9f, 0.2f, 0.1f})),
+            {.position = {0, 0, -2.8}, .velocity = {speed, 0, 0}});
+    }
+};
+
+/// Thirty puffs or sparks that were all born at once.
+ParticleEmitter makePuffs() {
+    ParticleEmitter emitter;
+    emitter.bursts = {{.seconds = -1.0, .count = 30}};
+    emitter.lifeSeconds = 10.0;
+    emitter.velocity = dvec3(0.0, 0.4, 0.0);
+    emitter.coneDegrees = 180.0;
+    emitter.sizeBirth = emitter.sizeDeath = 0.35;
+    emitter.colors = {vec4(0.3f, 0.8f, 0.9f, 0.5f), vec4(0.3f, 0.8f, 0.9f, 0.5f), vec4(0.2f)};
+    return emitter;
+}
+
+double measurePuffs(gpu::Device& device, const PuffScene& scene, std::string_view method) {
+    Shot shot{.method = method, .width = 192, .height = 128, .exposureSeconds = 0.25};
+    shot.instants = 128;
+    Stage stage(device, scene);
+    const image::Image picture = stage.render(shot).color;
+    shot.method = "accumulate";
+    return image::computePsnr(picture, stage.render(shot).color);
+}
+
+TEST_F(ParticleLaw, AMoverHidesAndShowsThemAtTheInstantsAtWhichItIsThere) {
+    ParticleEmitter sparks = makePuffs();
+    sparks.blend = scene::ParticleBlend::Add;
+    for (const auto& [emitter, least] : {std::pair(makePuffs(), 46.0), std::pair(sparks, 42.0)}) {
+        PuffScene scene(emitter);
+        scene.addSweep(2.4);
+        EXPECT_GT(measurePuffs(device(), scene, "resolved"), least);
+    }
+}
+
+TEST_F(ParticleLaw, ACameraThatMovesHidesThemAtEachInstantByWhatItSeesThen) {
+    PuffScene scene(makePuffs());
+    scene.addSweep(0.0);
+    scene.moveCamera({.velocity = {1.2, 0.0, -0.5}});
+    EXPECT_GT(measurePuffs(device(), scene, "resolved"), 48.0);
+}
+
+TEST_F(ParticleLaw, InstantsAreLookedUpOnlyWhereSomethingOpaqueMoves) {
+    const auto hasInstants = [&](const PuffScene& scene, std::string_view method) {
+        const Shot shot{.method = method, .width = 192, .height = 128, .exposureSeconds = 0.25};
+        return test::hasPass(test::renderOnce(device(), scene, shot), "instant surfaces");
+    };
+    PuffScene still(makePuffs());
+    still.addSweep(0.0);
+    EXPECT_FALSE(hasInstants(still, "resolved"));
+    PuffScene aside(makePuffs());
+    aside.add(
+        test::makeBox({0.2, 0.2, 0.2}, aside.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {3.4, 1.9, -3.8}, .velocity = {0.2, 0, 0}}
+    );
+    EXPECT_FALSE(hasInstants(aside, "resolved"));
+    PuffScene swept(makePuffs());
+    swept.addSweep(2.4);
+    EXPECT_TRUE(hasInstants(swept, "resolved"));
+    EXPECT_FALSE(hasInstants(swept, "gather"));
+}
+
 TEST_F(ParticleLaw, SoftOnesFadeBeforeASurface) {
     const auto measure = [&](double softMetres) {
         PixelScene scene;

@@ -296,7 +296,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     if (inputs.drawn.record)
         frame.drawn = describeDrawn(inputs, frame.settings, frame.response());
     if (frame.drawn && findsSurfaces(inputs, frame.settings))
-        own.surfaces = frame.drawn->rectangle;
+        own.surfaces = {frame.drawn->rectangle};
     if (inputs.isOff) {
         view.forget();
         (void)prepareLast(frame);
@@ -340,7 +340,9 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     const MotionBlurOutputs made = mEffect.add(frame.graph, own, frame.settings);
     if (inputs.observe)
         inputs.observe(frame.graph, own, made);
-    const graph::ImageHandle picture = addBlended(frame, made.color, made.surfaces);
+    const graph::ImageHandle picture = addBlended(
+        frame, made.color, made.surfaces.empty() ? graph::BufferHandle{} : made.surfaces.front()
+    );
     if (frame.isDumped)
         mDump->addPicture(frame.graph, frame.number, picture);
     deliver(frame, inputs.showsInputs ? showInputs(frame, own, picture) : picture);

@@ -49,20 +49,27 @@ InstantSurfacesPass::InstantSurfacesPass(gpu::Device& device)
 
 void InstantSurfacesPass::add(
     graph::Graph& graph,
-    const std::optional<shader::InstantSurfaces>& wanted,
+    std::span<const shader::InstantSurfaces> wanted,
     LookUpOutputs& found,
     const PassParams& params
 ) const {
-    if (!wanted)
-        return;
+    for (const shader::InstantSurfaces& one : wanted)
+        addOne(graph, one, found, params);
+}
 
+void InstantSurfacesPass::addOne(
+    graph::Graph& graph,
+    const shader::InstantSurfaces& wanted,
+    LookUpOutputs& found,
+    const PassParams& params
+) const {
     struct Data {
         SearchResources search;
         graph::ImageHandle picture; ///< bound, and not written
         graph::BufferHandle surfaces;
     };
 
-    const graph::BufferHandle begun = addHead(graph, *wanted);
+    const graph::BufferHandle begun = addHead(graph, wanted);
     const Data& pass = graph.addPass<Data>(
         "instant surfaces",
         graph::PassKind::Compute,
@@ -72,7 +79,7 @@ void InstantSurfacesPass::add(
             data.picture = builder.write(found.picture, Access::StorageWrite);
             data.surfaces = builder.write(begun, Access::StorageWrite);
         },
-        [this, params, size = wanted->sizePx](const Data& data, graph::PassContext& context) {
+        [this, params, size = wanted.sizePx](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.surfaces));
@@ -87,7 +94,7 @@ void InstantSurfacesPass::add(
     );
     found.search.counters = pass.search.counters;
     found.picture = pass.picture;
-    found.surfaces = pass.surfaces;
+    found.surfaces.push_back(pass.surfaces);
 }
 
 } // namespace shutter::motion_blur

@@ -8,7 +8,7 @@
 #include "modules/motion_blur/passes/look_up.h"
 #include "shaders/common/instant_surfaces.glsl"
 
-#include <optional>
+#include <span>
 
 namespace shutter::motion_blur {
 
@@ -23,16 +23,23 @@ class InstantSurfacesPass {
     explicit InstantSurfacesPass(gpu::Device& device);
 
     /// Fills LookUpOutputs::surfaces.
-    /// \param wanted the rectangle lies in the picture; nothing: nobody wants any
+    /// \param wanted rectangles that lie in the picture; empty: nobody wants any
     /// \param found of a LookUp; its counters and its picture come back as other versions
     /// \param params that the LookUp used
     void
     add(graph::Graph& graph,
-        const std::optional<shader::InstantSurfaces>& wanted,
+        std::span<const shader::InstantSurfaces> wanted,
         LookUpOutputs& found,
         const PassParams& params) const;
 
   private:
+    void addOne(
+        graph::Graph& graph,
+        const shader::InstantSurfaces& wanted,
+        LookUpOutputs& found,
+        const PassParams& params
+    ) const;
+
     gpu::Device& mDevice;
     SearchPipelines mPipelines;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The blended surfaces of a frame that leave the raster: planned, drawn and composited over the
-// blurred picture.
+// What is seen through in a frame: the blended surfaces that leave the raster are planned, drawn
+// and composited over the blurred picture, and particles get the instants that they are drawn over.
 #pragma once
 
-#include "engine/extract/blended_layer.h"
+#include "engine/extract/particle_instants.h"
 #include "engine/render/blended_layer.h"
 #include "engine/render/post_effect.h"
 #include "modules/motion_blur/frame_io.h"
@@ -11,6 +11,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -20,25 +21,46 @@ class BlendedSurfaces {
     BlendedSurfaces(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mScene(scene), mLayer(device, scene), mComposite(device) {}
 
-    /// Plans the layer of a frame. \param limits surfaceBytes is filled in
+    /// Plans the layer of a frame, and at which instants its particles are hidden. \param limits
+    /// surfaceBytes is filled in
     void extract(const render::ExtractContext& context, extract::LayerLimits limits);
 
-    /// What the method must leave for it (MotionBlurInputs::surfaces).
-    [[nodiscard]] std::optional<shader::InstantSurfaces> wanted(uint32_t slot) const;
+    /// What the method must leave for them (MotionBlurInputs::surfaces).
+    [[nodiscard]] std::vector<shader::InstantSurfaces> wanted(uint32_t slot) const;
 
-    /// Draws the layer over the blurred picture of the frame that extract() was called for.
-    /// \return the picture with it
+    /// Draws the layer over the blurred picture of the frame that extract() was called for, and
+    /// fills PostContext::particleInstants. \return the picture with the layer
     [[nodiscard]] graph::ImageHandle
-    declare(const render::PostContext& context, const MotionBlurOutputs& blurred);
+    declare(render::PostContext& context, const MotionBlurOutputs& blurred);
 
-    /// Adds "blended instants" and "blended bytes", the memory that the slot's layer took; nothing
-    /// where it had none.
+    /// Adds "blended instants" and "blended bytes", the memory that the slot's layer took, and
+    /// "particle instants" and "particle bytes" likewise; nothing where there was none.
     void count(uint32_t slot, render::Counters& counters) const;
 
   private:
+    struct Plan {
+        extract::BlendedLayer layer;
+        /// Where particles are hidden at instants; nothing: by the raster's depth.
+        std::optional<shader::InstantSurfaces> particles;
+
+        [[nodiscard]] bool layerReadsInstants() const {
+            return !layer.empty() && layer.readsInstants;
+        }
+
+        /// The layer's surfaces are where the particles' would be.
+        [[nodiscard]] bool sharesSurfaces() const;
+    };
+
+    graph::ImageHandle declareLayer(
+        const render::PostContext& context,
+        const extract::BlendedLayer& layer,
+        graph::ImageHandle blurred,
+        graph::BufferHandle surfaces
+    );
+
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    std::array<extract::BlendedLayer, gpu::kMaxFramesInFlight> mPlans; ///< by slot
+    std::array<Plan, gpu::kMaxFramesInFlight> mPlans; ///< by slot
     render::BlendedLayerPass mLayer;
     Composite mComposite;
 };

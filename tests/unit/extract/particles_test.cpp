@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Particles as a picture's tables, and the formulas that shaders evaluate them by.
-#include "engine/extract/particles.h"
+#include "engine/extract/particle_instants.h"
 #include "engine/scene/history.h"
+#include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
 #include "engine/scene/recorded_motion.h"
 #include "tests/unit/extract/extraction_fixture.h"
@@ -225,6 +226,72 @@ shader::ParticleRow makeRow(const vec3& velocity) {
     return row;
 }
 
+class ParticleInstants : public Particles {
+  protected:
+    ParticleInstants() { addEmitter({0, 0, -10}, emitter); }
+
+    std::optional<shader::InstantSurfaces> plan(const LayerLimits& limits = kLimits) {
+        const ExtractedFrame frame = extract();
+        const scene::ExposureMotion exposure = motion();
+        return planParticleInstants(
+            {world, layout, request, exposure, frame}, extractAll(), limits
+        );
+    }
+
+    static constexpr LayerLimits kLimits{
+        .instants = 15,
+        .findsInstants = true,
+        .surfaceBytes = std::numeric_limits<uint64_t>::max()};
+};
+
+TEST_F(ParticleInstants, AreOfTheRectangleInWhichAnOpaqueMoverMeetsTheParticles) {
+    EXPECT_FALSE(plan());
+    const ecs::Entity mover = addBox({0, 1, -8});
+    EXPECT_FALSE(plan()) << "it does not move";
+    world.registry.add(mover, scene::LinearVelocity{{2, 0, 0}});
+    const auto found = plan();
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->instantCount, 15u);
+    EXPECT_EQ(found->partCount, shader::kMostSurfaceParts);
+    EXPECT_LT(found->sizePx.x, request.width / 2);
+    EXPECT_LE(found->originPx.x + found->sizePx.x, request.width);
+    EXPECT_LE(found->originPx.y + found->sizePx.y, request.height);
+    world.registry.get<scene::LocalTransform>(mover).transform.translation.x = 14.0;
+    EXPECT_FALSE(plan()) << "it moves beside them";
+}
+
+TEST_F(ParticleInstants, OfACameraThatMovesAreOfAllThatParticlesCover) {
+    world.registry.add(camera, scene::LinearVelocity{{1, 0, 0}});
+    const auto found = plan();
+    ASSERT_TRUE(found);
+    const ParticleTables particles = extractAll();
+    EXPECT_EQ(found->originPx, math::uvec2(glm::floor(glm::max(particles.leastPx, 0.0))));
+    world.registry.get<scene::Camera>(camera).kind = scene::CameraKind::Orthographic;
+    EXPECT_FALSE(plan());
+}
+
+TEST_F(ParticleInstants, ComeInOnePartWhereParticlesOnlyAddLight) {
+    world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
+    for (auto [entity, component] : world.registry.view<scene::ParticleEmitter>())
+        component.blend = scene::ParticleBlend::Add;
+    ASSERT_TRUE(plan());
+    EXPECT_EQ(plan()->partCount, 1u);
+}
+
+TEST_F(ParticleInstants, AreAsManyAsTheMethodAndTheMemoryAllow) {
+    world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
+    LayerLimits limits = kLimits;
+    limits.instants = 3;
+    ASSERT_TRUE(plan(limits));
+    EXPECT_EQ(plan(limits)->instantCount, 3u);
+    EXPECT_EQ(plan(limits)->partCount, 3u);
+    limits.surfaceBytes = 64;
+    EXPECT_FALSE(plan(limits));
+    limits = kLimits;
+    limits.findsInstants = false;
+    EXPECT_FALSE(plan(limits));
+}
+
 TEST(ParticleFormulas, PlacesAreWhatSmallStepsOfGravityAndDragComeTo) {
     const shader::ParticleRow row = makeRow({3.0f, 5.0f, -1.0f});
     for (const double drag : {0.0, 1e-6, 0.01, 0.3, 2.0, 40.0}) {
@@ -278,6 +345,27 @@ TEST(ParticleFormulas, AStreakIsTheMeanOfTheRoundParticleAtAllInstants) {
                     EXPECT_GE(covered.y, 0.0f);
                     EXPECT_LE(covered.y, 1.0f);
                 }
+}
+
+TEST(ParticleFormulas, OutsideTheSpanOfItsWayAParticleDoesNotCoverThePoint) {
+    for (const vec2& way : {vec2(3.0f, 1.0f), vec2(-20.0f, 35.0f)})
+        for (float x = -30.5f; x < 16.0f; x += 2.9f) {
+            const vec2 point(x, 0.7f * x + 4.0f);
+            const vec2 span = shader::streakSpan(point, way, 5.0f);
+            EXPECT_LE(0.0f, span.x);
+            EXPECT_LE(span.x, span.y);
+            EXPECT_LE(span.y, 1.0f);
+            for (float share = 0.005f; share < 1.0f; share += 0.01f) {
+                const float distance = glm::distance(point, share * way);
+                if (distance < 4.99f) {
+                    EXPECT_TRUE(span.x <= share && share <= span.y) << x << ", " << share;
+                }
+                if (span.x + 0.01f < share && share < span.y - 0.01f) {
+                    EXPECT_LT(distance, 5.01f) << x << ", " << share;
+                }
+            }
+        }
+    EXPECT_EQ(shader::streakSpan({1.0f, 0.0f}, {0.001f, 0.0f}, 5.0f), vec2(0.0f, 1.0f));
 }
 
 TEST(ParticleFormulas, ALifeIsCutToTheExposure) {

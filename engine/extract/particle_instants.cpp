@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/particle_instants.h"
+
+#include <algorithm>
+
+namespace shutter::extract {
+
+namespace {
+
+/// More instants change no picture of particles by a step of eight bits.
+constexpr uint32_t kMaxParticleInstants = 16;
+
+/// Grows `all` around what `one` and `within` share.
+void addShared(SweptBox& all, const SweptBox& one, const SweptBox& within) {
+    all.least = glm::min(all.least, glm::max(one.least, within.least));
+    all.most = glm::max(all.most, glm::min(one.most, within.most));
+}
+
+} // namespace
+
+std::optional<shader::InstantSurfaces> planParticleInstants(
+    const SweptSource& source, const ParticleTables& particles, const LayerLimits& limits
+) {
+    if (particles.empty() || particles.isInstant || !limits.findsInstants)
+        return std::nullopt;
+    SweptBox seen;
+    seen.least = glm::max(particles.leastPx, math::dvec2(0.0));
+    seen.most = glm::min(particles.mostPx, math::dvec2(source.view.width, source.view.height));
+    if (!(seen.least.x < seen.most.x && seen.least.y < seen.most.y))
+        return std::nullopt;
+    const SweptScene scene(source);
+    // The tables of particles have no depth along the view of an orthographic camera that moves.
+    if (scene.cameraMoves && !scene.isPerspective)
+        return std::nullopt;
+    SweptBox box = seen;
+    const auto movers = scene.sweepOpaqueMovers();
+    if (movers && !scene.cameraMoves) {
+        box = {};
+        for (const SweptBox& mover : *movers)
+            if (overlap(mover, seen))
+                addShared(box, mover, seen);
+    }
+    if (!(box.least.x < box.most.x && box.least.y < box.most.y))
+        return std::nullopt;
+    shader::InstantSurfaces wanted{};
+    wanted.originPx = math::uvec2(glm::floor(box.least));
+    wanted.sizePx = math::uvec2(glm::ceil(box.most)) - wanted.originPx;
+    wanted.instantCount = std::min(limits.instants, kMaxParticleInstants);
+    wanted.partCount = particles.hides ? shader::kMostSurfaceParts : 1;
+    wanted.instantCount = fitInstants(wanted, limits.surfaceBytes);
+    wanted.partCount = std::min(wanted.partCount, wanted.instantCount);
+    if (wanted.instantCount == 0)
+        return std::nullopt;
+    return wanted;
+}
+
+} // namespace shutter::extract
