@@ -203,17 +203,15 @@ void searchDepths(
         guess = tried;
         return;
     }
-    if (first == kUnclear && (hasGuess || way < kSeedlessWayPx)) {
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, found, doubt)) {
-            guess = tried;
-            return;
-        }
-    }
-    if (way < kSeedlessWayPx) return;
-    uint seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMostSeeds))), 2u);
-    for (uint seed = 0u; seed < seeds; ++seed) {
-        tried.along = alongAt(candidate, float(seed) / float(seeds - 1u), perspective);
-        // From near to far: the first place found is, as a rule, the one that hides the others.
+    bool triesGuess = first == kUnclear && (hasGuess || way < kSeedlessWayPx);
+    uint seeds = 0u;
+    if (way >= kSeedlessWayPx)
+        seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMostSeeds))), 2u);
+    // One loop over the guess and the seeds, since compilers write out every call. From near to far: the
+    // first place found is, as a rule, the one that hides the others.
+    [[dont_unroll]] for (uint i = triesGuess ? 0u : 1u; i <= seeds; ++i) {
+        if (i > 0u)
+            tried.along = alongAt(candidate, float(i - 1u) / float(seeds - 1u), perspective);
         if (searchRigid(layer, depthRow, ray, perspective, tried, way, found, doubt)) {
             guess = tried;
             return;
