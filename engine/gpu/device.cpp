@@ -229,12 +229,18 @@ void Device::loadLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     if (mInfo.rayTier == RayTier::Pipeline)
         structure.pNext = &pipeline;
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    VkPhysicalDeviceVulkan13Properties v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
     if (hasRays())
-        properties.pNext = &structure;
+        v13.pNext = &structure;
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v13};
     vkGetPhysicalDeviceProperties2(mInfo.handle, &properties);
     mLimits = properties.properties.limits;
     vkGetPhysicalDeviceMemoryProperties(mInfo.handle, &mMemoryProperties);
+    if (mControlsSubgroupSize &&
+        (v13.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0) {
+        mLeastSubgroupSize = v13.minSubgroupSize;
+        mMostSubgroupSize = v13.maxSubgroupSize;
+    }
     if (hasRays())
         mMinScratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
     if (mInfo.rayTier == RayTier::Pipeline)

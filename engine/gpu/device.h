@@ -74,6 +74,8 @@ struct HostDevice {
     /// rayTracingPipelineTraceRaysIndirect is enabled (RayTier::Pipeline).
     bool tracesIndirect = false;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
+    /// The feature subgroupSizeControl is enabled: pipelines get the sizes that they ask for.
+    bool controlsSubgroupSize = false;
     /// Where pipelines are looked up and kept; null: in one that is not kept on disk. Other threads
     /// may use it meanwhile, unless it was made to be synchronized by its users.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
@@ -162,6 +164,11 @@ class Device {
     [[nodiscard]] const ExtensionFunctions& functions() const { return mFunctions; }
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
+
+    /// Whether compute pipelines can be made with subgroups of that many invocations.
+    [[nodiscard]] bool canRequireSubgroupSize(uint32_t size) const {
+        return size >= mLeastSubgroupSize && size <= mMostSubgroupSize;
+    }
 
     [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memoryProperties() const {
         return mMemoryProperties;
@@ -267,6 +274,8 @@ class Device {
     VkQueue mQueue = VK_NULL_HANDLE;
     DeviceInfo mInfo;
     VkPhysicalDeviceLimits mLimits{};
+    uint32_t mLeastSubgroupSize = 1; ///< that pipelines can require; above the most: none
+    uint32_t mMostSubgroupSize = 0;
     VkPhysicalDeviceMemoryProperties mMemoryProperties{};
     uint32_t mMinScratchAlignment = 1;
     ShaderGroupLimits mShaderGroupLimits;
@@ -284,6 +293,7 @@ class Device {
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
+    bool mControlsSubgroupSize = true;
     bool mMakesPipelinesAhead = false;
     Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread

@@ -16,6 +16,7 @@ core::Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
 }
 
 core::Status Device::adoptHost(const HostDevice& host) {
+    mControlsSubgroupSize = host.controlsSubgroupSize;
     mIsAdopted = true; // first: whatever fails below must not destroy the host's device
     if (!host.physical || !host.device)
         return core::makeError("host device: {} is null", host.physical ? "device" : "physical");

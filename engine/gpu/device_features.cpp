@@ -35,6 +35,7 @@ constexpr std::array kRows13{
     Row<V13>{&V13::dynamicRendering, "dynamic rendering"},
     Row<V13>{&V13::synchronization2, "synchronization2"},
     Row<V13>{&V13::maintenance4, "maintenance4"}, // glslang gives workgroup sizes as LocalSizeId
+    Row<V13>{&V13::subgroupSizeControl, "subgroup size control"},
     Row<V13>{&V13::shaderTerminateInvocation, "terminating invocations"}, // what `discard` becomes
 };
 

@@ -175,6 +175,11 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     const Specialization constants(desc.specialization);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = makeStage(VK_SHADER_STAGE_COMPUTE_BIT, module.handle(), constants);
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroups{
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+    subgroups.requiredSubgroupSize = desc.subgroupSize;
+    if (device.canRequireSubgroupSize(desc.subgroupSize))
+        info.stage.pNext = &subgroups;
     info.layout = mObjects.layout;
     require(
         vkCreateComputePipelines(

@@ -27,6 +27,9 @@ struct ComputePipelineDesc {
     std::span<const uint32_t> spirv;
     PipelineInterface interface;
     std::vector<uint32_t> specialization; ///< constant_id 0, 1, 2, ...
+    /// Invocations of a subgroup, a power of two; 0, or where the device cannot: the driver's
+    /// choice.
+    uint32_t subgroupSize = 0;
 };
 
 /// Shaders of one traversal. Only the ray generation shader starts rays.

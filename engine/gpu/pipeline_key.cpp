@@ -46,6 +46,7 @@ std::string makePipelineKey(const ComputePipelineDesc& desc) {
     Key key('c');
     key.addShared(desc);
     key.addList(desc.spirv);
+    key.add(desc.subgroupSize);
     return key.take();
 }
 

@@ -290,6 +290,7 @@ TEST(CInterfaceFeatures, AreAddedToAHostsOwnChain) {
     EXPECT_TRUE(features.features.shaderStorageImageExtendedFormats);
     EXPECT_TRUE(v12.bufferDeviceAddress && v12.scalarBlockLayout);
     EXPECT_TRUE(v13.synchronization2 && v13.maintenance4 && v13.dynamicRendering);
+    EXPECT_TRUE(v13.subgroupSizeControl) << "which is used where it is enabled, and not required";
 
     // A host of structures that came before those of the versions.
     VkPhysicalDeviceMaintenance4Features maintenance{

@@ -74,8 +74,9 @@ SHUTTER_BLUR_API const char* shutterBlurGetMessage(void);
 /* Switches the features on that the motion blur needs, in the structures that the chain holds:
  * `features` itself, VkPhysicalDeviceVulkan12Features or the ones that it replaces
  * (BufferDeviceAddress, ScalarBlockLayout), VkPhysicalDeviceVulkan13Features or the ones that it
- * replaces (Synchronization2, Maintenance4). All else in the chain is left as it is. Refused where
- * the chain has no structure for a feature; the message names it. Vulkan 1.3 is needed, and no
+ * replaces (Synchronization2, Maintenance4). SubgroupSizeControl is switched on, too, if the chain
+ * has it: it is not required. All else in the chain is left as it is. Refused where the chain has
+ * no structure for a required feature; the message names it. Vulkan 1.3 is needed, and no
  * extension. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurAddFeatures(VkPhysicalDeviceFeatures2* features);
 
@@ -109,8 +110,8 @@ typedef struct ShutterBlurDevice {
     VkBool32 tracesIndirect;
     /* VkApplicationInfo::apiVersion of the instance, to be checked; 0: not said. */
     uint32_t apiVersion;
-    /* The chain that the device was made with, to be checked; null: not said. Read by
-     * shutterBlurCreate() only. */
+    /* The chain that the device was made with, to be checked; null: not said, and
+     * subgroupSizeControl is not used. Read by shutterBlurCreate() only. */
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /* shutterBlurRecord() takes the GPU's times and counts, for shutterBlurGetReport() and
      * ShutterBlurInputs::budgetMilliseconds: two timestamps a pass and a few small copies. */

@@ -75,6 +75,8 @@ core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(con
              .rayTier = host.rayTier,
              .tracesIndirect = host.tracesIndirect,
              .hasDebugUtils = host.hasDebugUtils,
+             .controlsSubgroupSize =
+                 host.enabledFeatures && enablesSubgroupSizes(*host.enabledFeatures),
              .pipelineCache = host.pipelineCache}
         );
         if (!device)

@@ -57,6 +57,13 @@ constexpr std::array kFeatures{
         SHUTTER_IN(V13, maintenance4),
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
         SHUTTER_IN(VkPhysicalDeviceMaintenance4Features, maintenance4)}};
+/// Not required: without, drivers choose how large subgroups are.
+constexpr Feature kSubgroupSizes{
+    "subgroupSizeControl",
+    kV13,
+    SHUTTER_IN(V13, subgroupSizeControl),
+    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES,
+    SHUTTER_IN(VkPhysicalDeviceSubgroupSizeControlFeatures, subgroupSizeControl)};
 #undef SHUTTER_IN
 
 /// Null: no structure of the chain has it.
@@ -95,6 +102,8 @@ core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain) {
             );
         wanted.push_back(found);
     }
+    if (VkBool32* const found = findIn(chain, kSubgroupSizes))
+        wanted.push_back(found);
     for (VkBool32* const feature : wanted)
         *feature = VK_TRUE;
     chain.features.shaderStorageImageExtendedFormats = VK_TRUE; // images of two channels
@@ -105,6 +114,12 @@ core::Status checkEnabledFeatures(const VkPhysicalDeviceFeatures2& enabled) {
     const char* const lacking = findLacking(enabled);
     return lacking ? core::makeError("motion blur: enabledFeatures lacks {}", lacking)
                    : core::Status();
+}
+
+bool enablesSubgroupSizes(const VkPhysicalDeviceFeatures2& enabled) {
+    auto& readOnly = const_cast<VkPhysicalDeviceFeatures2&>(enabled); // nothing is written to it
+    const VkBool32* const found = findIn(readOnly, kSubgroupSizes);
+    return found && *found;
 }
 
 core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily) {

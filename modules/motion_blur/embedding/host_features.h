@@ -18,6 +18,10 @@ namespace shutter::motion_blur {
 /// that is not.
 [[nodiscard]] core::Status checkEnabledFeatures(const VkPhysicalDeviceFeatures2& enabled);
 
+/// Whether the device was made with subgroupSizeControl, which is not required: passes that diverge
+/// are faster on GPUs with it.
+[[nodiscard]] bool enablesSubgroupSizes(const VkPhysicalDeviceFeatures2& enabled);
+
 /// Whether the device could have the features enabled, and the queue family runs compute shaders;
 /// one sentence that names what is missing where it cannot. What a host did enable Vulkan does not
 /// tell anybody; the validation layer and checkEnabledFeatures() do.

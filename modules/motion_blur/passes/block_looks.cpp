@@ -29,6 +29,7 @@ gpu::ComputePipelineDesc describeFind(bool sortsUniform, bool hasParts) {
         "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
     desc.specialization = {sortsUniform ? 1u : 0u, hasParts ? 1u : 0u};
+    desc.subgroupSize = kDivergingSubgroup;
     return desc;
 }
 

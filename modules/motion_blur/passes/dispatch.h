@@ -27,6 +27,10 @@ namespace shutter::motion_blur {
     return desc;
 }
 
+/// Subgroups of passes whose pixels go ways of their own: the fewer that wait for one another, the
+/// better, and compilers hold more in registers. GPUs have this size or, some, twice of it.
+inline constexpr uint32_t kDivergingSubgroup = 32;
+
 /// Whether shaders run on the CPU, where fewer threads that do more each are faster.
 [[nodiscard]] inline bool isSoftware(const gpu::Device& device) {
     return device.info().kind == "software";

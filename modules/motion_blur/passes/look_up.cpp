@@ -29,6 +29,7 @@ gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
     gpu::ComputePipelineDesc desc =
         describePass("resolve", motion_blur_resolved_comp, std::move(bindings));
     desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u};
+    desc.subgroupSize = kDivergingSubgroup;
     return desc;
 }
 
