@@ -167,6 +167,35 @@ void addBunting(GltfWriter& writer) {
     );
 }
 
+/// A window under the runner's arm: what is seen through it is now the runner, now the wall.
+void addCarriedPane(GltfWriter& writer, Index runner) {
+    constexpr vec2 kHalf{0.75f, 0.55f};
+    constexpr float kBar = 0.03f;
+    Shape frame;
+    for (const float side : {-1.0f, 1.0f}) {
+        append(frame, box({kBar, kHalf.y + kBar, kBar}, 0.5f), moved(kZ * (side * kHalf.x)));
+        append(frame, box({kBar, kBar, kHalf.x - kBar}, 0.5f), moved(kY * (side * kHalf.y)));
+    }
+    const Index window = addObject(
+        writer,
+        {.name = "window", .parent = runner, .translation = {-0.50f, 1.05f, 0.10f}},
+        frame,
+        addPlainMaterial(writer, "window_frame", {0.75f, 0.70f, 0.60f}, 0.6f)
+    );
+    addObject(
+        writer,
+        {.name = "pane", .parent = window},
+        box({0.004f, kHalf.y, kHalf.x}, 1.0f),
+        writer.addMaterial(
+            {.name = "glass",
+             .color = {0.15f, 0.50f, 0.45f},
+             .roughness = 0.15f,
+             .doubleSided = true,
+             .alpha = 0.45f}
+        )
+    );
+}
+
 /// A person who runs to and fro between the first two rails, in clips that loop: where they end
 /// they are as they began.
 void addRunner(GltfWriter& writer) {
@@ -209,6 +238,7 @@ void addRunner(GltfWriter& writer) {
         std::array{towardsRight, towardsRight, front, towardsLeft, towardsLeft, front, towardsRight}
     );
     addGait(writer, clip, runner, gait, 0.0f, times.back());
+    addCarriedPane(writer, runner.root);
 }
 
 void addRails(GltfWriter& writer) {
