@@ -64,7 +64,7 @@ void throwBall(scene::World& world, const dvec3& from, const dvec3& velocity, do
     if (chosen == ecs::kNullEntity)
         return;
     Ball& ball = world.registry.get<Ball>(chosen);
-    ball = {.velocity = velocity, .flies = true};
+    ball = {.velocity = velocity, .flies = true, .flash = ball.flash};
     ball.spin = glm::cross(velocity, dvec3(0.0, 1.0, 0.0)) * 0.8;
     auto& pose = world.registry.get<SimulatedPose>(chosen);
     pose.transform.translation = from;

@@ -2,6 +2,7 @@
 // Balls that are thrown, bounce off floor and walls, and are picked up again.
 #pragma once
 
+#include "engine/ecs/entity.h"
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
 
@@ -17,6 +18,7 @@ struct Ball {
     double seconds = 0.0;      ///< since it was thrown
     bool flies = false;
     bool hasHit = false; ///< a target: each ball counts once
+    ecs::Entity flash{}; ///< emits where it hits; null: nothing does
 };
 
 /// The room in which balls bounce.

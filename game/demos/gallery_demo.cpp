@@ -25,6 +25,7 @@ constexpr double kClosingShotSeconds = 2.5; // of each camera after the end
 constexpr double kThrowSpeed = 24.0;        // m/s
 constexpr double kThrowLift = 0.06;         // radians above the aim, against the fall
 constexpr uint32_t kSplintersPerHit = 24;
+constexpr uint32_t kFlashesPerHit = 14;
 constexpr int kBallCount = 12;
 
 /// The scene's rails: node `rail_N` is N's bar, `target_N_K` stand on it.
@@ -63,6 +64,15 @@ void addTargets(scene::World& world, NodeNames& names, Random& random) {
     }
 }
 
+/// Rides on the ball: an entity has one emitter, and the ball's own has its splinters.
+ecs::Entity addFlash(scene::World& world, ecs::Entity ball, uint32_t seed) {
+    const ecs::Entity flash = world.registry.create();
+    world.registry.add(flash, scene::LocalTransform{});
+    world.registry.add(flash, scene::Parent{ball});
+    world.registry.add(flash, makeFlash(seed));
+    return flash;
+}
+
 } // namespace
 
 core::Result<std::unique_ptr<Demo>> GalleryDemo::create(scene::World world, std::string_view file) {
@@ -87,8 +97,9 @@ GalleryDemo::GalleryDemo(scene::World loaded, const Nodes& nodes)
       mShooterRest(restOf(world(), nodes.shooter)), mLauncherRest(restOf(world(), nodes.launcher)) {
     for (int i = 0; i < kBallCount; ++i) {
         const ecs::Entity ball = copyHidden(world(), mNodes.ball);
-        world().registry.add(ball, Ball{});
-        world().registry.add(ball, makeSplinters(static_cast<uint32_t>(i)));
+        const auto seed = static_cast<uint32_t>(i);
+        world().registry.add(ball, Ball{.flash = addFlash(world(), ball, seed)});
+        world().registry.add(ball, makeSplinters(seed));
     }
     (void)game::simulate(world(), mNodes.shooter);
     (void)game::simulate(world(), mNodes.launcher);
@@ -120,6 +131,7 @@ void GalleryDemo::countHits() {
             continue;
         ball.hasHit = true;
         burst(registry, entity, seconds(), kSplintersPerHit);
+        burst(registry, ball.flash, seconds(), kFlashesPerHit);
         // It falls back from the face.
         ball.velocity = {ball.velocity.x * 0.3, ball.velocity.y, -0.25 * ball.velocity.z};
         if (isOver())

@@ -47,6 +47,14 @@ scene::ParticleEmitter makeSparks(uint32_t seed) {
     return sparks;
 }
 
+scene::ParticleEmitter makeBrakeSparks(uint32_t seed) {
+    scene::ParticleEmitter sparks = makeSparks(seed);
+    sparks.velocity = {5.0, 1.4, 0.0};
+    sparks.coneDegrees = 22.0;
+    sparks.radius = 0.06;
+    return sparks;
+}
+
 scene::ParticleEmitter makeDust(uint32_t seed) {
     scene::ParticleEmitter dust;
     dust.lifeSeconds = 0.9;
@@ -85,6 +93,25 @@ scene::ParticleEmitter makeSplinters(uint32_t seed) {
     splinters.lit = true;
     splinters.seed = seed;
     return splinters;
+}
+
+scene::ParticleEmitter makeFlash(uint32_t seed) {
+    scene::ParticleEmitter flash;
+    flash.lifeSeconds = 0.07;
+    flash.lifeSpread = 0.4;
+    flash.velocity = {0.0, 7.0, 0.0};
+    flash.coneDegrees = 180.0;
+    flash.speedSpread = 0.7;
+    flash.radius = 0.1;
+    flash.drag = 12.0;
+    flash.sizeBirth = 0.5;
+    flash.sizeDeath = 0.12;
+    flash.colors = {
+        vec4(12.0f, 9.0f, 5.0f, 1.0f), vec4(6.0f, 3.0f, 1.0f, 1.0f), vec4(1.0f, 0.4f, 0.1f, 0.0f)};
+    flash.blend = scene::ParticleBlend::Add;
+    flash.softMetres = 0.05;
+    flash.seed = seed;
+    return flash;
 }
 
 void burst(ecs::Registry& registry, ecs::Entity entity, double seconds, uint32_t count) {

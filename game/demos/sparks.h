@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What flies off in the demos: sparks, dust, splinters.
+// What flies off in the demos: sparks, dust, splinters, a flash.
 #pragma once
 
 #include "engine/ecs/registry.h"
@@ -11,10 +11,14 @@ namespace shutter::game {
 
 /// Of metal that is struck: glows, falls and dies within half a second.
 [[nodiscard]] scene::ParticleEmitter makeSparks(uint32_t seed);
+/// Under a brake, along the entity's +X.
+[[nodiscard]] scene::ParticleEmitter makeBrakeSparks(uint32_t seed);
 /// Behind a wheel that slides.
 [[nodiscard]] scene::ParticleEmitter makeDust(uint32_t seed);
 /// Of a plate that a ball hits, from the ball.
 [[nodiscard]] scene::ParticleEmitter makeSplinters(uint32_t seed);
+/// Of the same hit: far brighter than the picture, and gone within a tenth of a second.
+[[nodiscard]] scene::ParticleEmitter makeFlash(uint32_t seed);
 
 /// Emits at once. The entity has an emitter (CHECKed); bursts that nothing is left of are dropped.
 void burst(ecs::Registry& registry, ecs::Entity entity, double seconds, uint32_t count);

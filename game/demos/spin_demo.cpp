@@ -2,6 +2,7 @@
 #include "game/demos/spin_demo.h"
 
 #include "engine/core/words.h"
+#include "game/demos/sparks.h"
 #include "game/demos/stage.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,12 @@ constexpr double kOrbitRate = 0.5; // rad/s
 constexpr double kMostOrbit = 0.7; // radians
 constexpr double kBob = 0.20;      // metres that a seat rises and sinks
 constexpr double kBobsPerTurn = 2.0;
+constexpr uint32_t kSparksPerRing = 60;
+constexpr double kBrakeSparksPerSecond = 300.0;
+constexpr double kHardBrake = -0.3;           // of `drive`, and below
+constexpr double kSlowestSparks = 0.3;        // rad/s
+constexpr dvec3 kRingPlace(0.0, 2.2, 0.0);    // from the foot of its post, metres
+constexpr dvec3 kBrakePlace(0.0, 0.14, 3.02); // from the carousel's middle: under its rim
 const dvec3 kVertical(0.0, 1.0, 0.0);
 const dvec3 kAhead(0.0, 0.0, 1.0);
 
@@ -40,6 +47,7 @@ core::Result<std::unique_ptr<Demo>> SpinDemo::create(scene::World world, std::st
     parts.mill = part(names.find("mill"));
     parts.front = part(names.find("front"));
     parts.hub = names.find("hub");
+    parts.ring = names.find("ring");
     (void)names.find("seat_0"); // the golden one
     SHUTTER_TRY(names.check(file));
     if (world.cameras.empty())
@@ -58,9 +66,24 @@ SpinDemo::SpinDemo(scene::World loaded, Parts parts)
     add(mParts.front);
     for (const Part& seat : mParts.seats)
         add(seat);
+    mRingSparks = addEmitter(mParts.ring, kRingPlace, makeSparks(1));
+    mBrakeSparks = addEmitter(
+        ecs::kNullEntity, mParts.carousel.rest.translation + kBrakePlace, makeBrakeSparks(2)
+    );
     mRide.rate = 0.6; // it is turning when the game begins
     placeParts();
     recordStart();
+}
+
+ecs::Entity
+SpinDemo::addEmitter(ecs::Entity parent, const dvec3& place, scene::ParticleEmitter emitter) {
+    ecs::Registry& registry = world().registry;
+    const ecs::Entity entity = registry.create();
+    registry.add(entity, scene::LocalTransform{{.translation = place}});
+    if (parent != ecs::kNullEntity)
+        registry.add(entity, scene::Parent{parent});
+    registry.add(entity, std::move(emitter));
+    return entity;
 }
 
 void SpinDemo::placeParts() {
@@ -99,8 +122,16 @@ void SpinDemo::simulate(const DemoControls& controls) {
     mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMostOrbit, kMostOrbit);
     placeParts();
     // Seat 0 faces the ring, which is at +Z, at angle 0.
-    if (!wasOver)
-        stepRules(mRules, mRide, mRide.carousel, controls.action, mRandom);
+    const bool isBraking = !wasOver && controls.drive <= kHardBrake && mRide.rate >= kSlowestSparks;
+    emitSteadily(
+        world().registry, mBrakeSparks, seconds(), isBraking ? kBrakeSparksPerSecond : 0.0
+    );
+    if (wasOver)
+        return;
+    const int caught = mRules.caught;
+    stepRules(mRules, mRide, mRide.carousel, controls.action, mRandom);
+    if (mRules.caught > caught)
+        burst(world().registry, mRingSparks, seconds(), kSparksPerRing);
 }
 
 DemoLook SpinDemo::look() const {

@@ -2,6 +2,7 @@
 // `spin`: a carousel, a fan and a wind wheel on one shaft; keep the rate, catch the ring.
 #pragma once
 
+#include "engine/scene/particle_emitter.h"
 #include "game/demos/demo_base.h"
 #include "game/demos/random.h"
 #include "game/demos/spin_ride.h"
@@ -44,13 +45,19 @@ class SpinDemo final : public DemoBase {
         Part mill;
         Part front; ///< camera
         ecs::Entity hub;
+        ecs::Entity ring;
         std::vector<Part> seats;
     };
 
     SpinDemo(scene::World world, Parts parts);
+    /// Something that emits there, relative to `parent`; null: to the world.
+    ecs::Entity
+    addEmitter(ecs::Entity parent, const math::dvec3& place, scene::ParticleEmitter emitter);
     void placeParts();
 
     Parts mParts;
+    ecs::Entity mRingSparks;
+    ecs::Entity mBrakeSparks;
     Ride mRide;
     RideRules mRules;
     Random mRandom{3};

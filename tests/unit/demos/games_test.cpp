@@ -492,6 +492,11 @@ TEST(Sparks, StepsThatFollowOneAnotherAreOneSpanAndWhatIsGoneIsDropped) {
     EXPECT_TRUE(dust.spans.empty());
 }
 
+TEST(Sparks, AllThatTheDemosEmitIsValid) {
+    for (const auto& make : {makeSparks, makeBrakeSparks, makeDust, makeSplinters, makeFlash})
+        EXPECT_TRUE(scene::validateEmitter(make(3)).ok());
+}
+
 TEST(Sparks, OfThePostsThatACarMeetsFlyOnce) {
     ecs::Registry registry;
     const ecs::Entity post = registry.create();
