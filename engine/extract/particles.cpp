@@ -349,6 +349,8 @@ class Extraction {
 core::Result<ParticleTables> extractParticles(
     const scene::World& world, const ViewRequest& request, const FrameView& view, ParticleTime time
 ) {
+    if (!request.particles)
+        return ParticleTables{};
     Extraction extraction(world, request, view, time);
     for (auto [entity, emitter] : world.registry.view<ParticleEmitter>())
         SHUTTER_TRY(extraction.add(entity, emitter));

@@ -57,12 +57,36 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
     explainer.decide(ExplainedKind::Work, "blending", surfaces.blending);
 }
 
-core::Decision decideParticles(const extract::ParticleTables& particles) {
+core::Decision
+decideParticles(const extract::ParticleTables& particles, const extract::ViewRequest& view) {
+    if (!view.particles)
+        return {false, "the view leaves them out"};
     if (particles.empty())
         return {false, "none lives in the picture's time"};
     const std::string count =
         core::countOf(particles.rows.size(), "particle lives", "particles live");
     return {true, count + (particles.isInstant ? " at its instant" : " in its exposure")};
+}
+
+graph::ImageHandle
+declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t height) {
+    struct Data {
+        graph::ImageHandle image;
+    };
+
+    return graph
+        .addPass<Data>(
+            name,
+            graph::PassKind::Raster,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.image = builder.colorTarget(
+                    graph.createImage(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT}),
+                    graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 1.0f)
+                );
+            },
+            [](const Data&, graph::PassContext&) {}
+        )
+        .image;
 }
 
 } // namespace
@@ -140,6 +164,20 @@ graph::ImageHandle Renderer::declareParticles(
          .jitterPx = jitterPx,
          .instants = instants}
     );
+}
+
+void Renderer::publishParticles(
+    const FrameParts& parts, const DeclaredScene& scene, Intermediates& intermediates
+) {
+    constexpr const char* kName = "particles";
+    if (!intermediates.isWanted(kName) || parts.particles.empty())
+        return;
+    const extract::ViewRequest& view = parts.request.view;
+    parts.explainer.beginPasses(parts.graph, PassOwner::Display, "particles are shown alone");
+    const auto black = declareBlack(parts.graph, "black", view.width, view.height);
+    const auto& jitterPx = parts.running.particles.run ? parts.particleJitterPx : view.jitterPx;
+    // Without instants: they bring the picture that lies behind.
+    intermediates.publish(kName, declareParticles(parts, scene, black, jitterPx, std::nullopt));
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -408,13 +446,16 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
         explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
         explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
-        explainer.decide(ExplainedKind::Work, "particles", decideParticles(particles));
+        explainer.decide(
+            ExplainedKind::Work, "particles", decideParticles(particles, request.view)
+        );
     }
     const DeclaredScene scene = declareScene(parts);
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
     Intermediates intermediates(std::move(wanted));
     publishGBuffer(scene.gbuffer, intermediates);
+    publishParticles(parts, scene, intermediates);
     PostContext context{
         .graph = graph,
         .view = request.view,

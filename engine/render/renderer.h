@@ -270,6 +270,10 @@ class Renderer {
         const math::dvec2& jitterPx,
         const std::optional<ParticleInstants>& instants
     );
+    /// Draws them once more, alone, where that is wanted. The raster's depth hides them.
+    void publishParticles(
+        const FrameParts& parts, const DeclaredScene& scene, Intermediates& intermediates
+    );
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.
     DeclaredScene declareScene(const FrameParts& parts);

@@ -24,6 +24,7 @@ enum class AntiAliasing : uint8_t {
 struct PictureSettings {
     AntiAliasing antiAliasing = AntiAliasing::None;
     extract::FrameFit frameFit = extract::FrameFit::Whole;
+    bool particles = true; ///< extract::ViewRequest::particles
     extract::ShadowSettings shadows{};
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};

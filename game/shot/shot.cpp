@@ -188,6 +188,7 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.background = options.background;
     view.ambient = options.ambient;
     view.unlit = options.unlit;
+    view.particles = options.picture.particles;
     view.shadows = options.picture.shadows;
     return view;
 }

@@ -56,6 +56,7 @@ const std::vector<View>& views() {
          kShowIds,
          nullptr,
          "mesh_id"},
+        showColor("particles", "particles alone, before black"),
         showColor("last", "the last frame's raster, which this one is looked up in"),
         showColor("second", "the raster at the other end of the exposure"),
         showMotion("tile_max", "longest motion of each tile, coloured as motion"),

@@ -5,6 +5,7 @@
 #include "assets/generator/scenes.h"
 #include "engine/environment/environment.h"
 #include "engine/gltf/gltf_loader.h"
+#include "engine/scene/particle_emitter.h"
 #include "modules/bloom/bloom.h"
 #include "tests/stability/hard_case.h"
 #include "tests/support/temp_folder.h"
@@ -310,6 +311,43 @@ TEST_F(Demand, LightThatASceneHasNoUseForHasNoPassAndNoImage) {
             EXPECT_EQ(listBeyond(listParts(asked, section), listParts(plain, section)), kNone);
         EXPECT_FALSE(listParts(asked, "passes").empty());
     }
+}
+
+TEST_F(Demand, ParticlesThatTheViewLeavesOutHaveNoPassNoImageAndNoBuffer) {
+    SceneBuilder scene = load(generator::buildMovingRegionScene(1, 1));
+    const auto draw = [&](bool hasParticles) {
+        return Frames(device(), scene)
+            .draw(makeFrame("resolved"), [&](game::PictureRequest& request) {
+                request.frame.view.particles = hasParticles;
+                request.frame.intermediates = {"particles"};
+            });
+    };
+    const auto without = draw(true);
+    const ecs::Entity entity = scene.world.registry.create();
+    scene.world.registry.add(entity, scene::LocalTransform{{.translation = {0.0, 0.0, -2.0}}});
+    scene::ParticleEmitter emitter;
+    emitter.spans = {{.fromSeconds = -10.0, .perSecond = 200.0}};
+    emitter.velocity = {0.5, 0.5, 0.0};
+    scene.world.registry.add(entity, emitter);
+    const auto off = draw(false);
+    const auto on = draw(true);
+    for (const char* section : {"passes", "images", "buffers"})
+        EXPECT_EQ(listParts(off.dump, section), listParts(without.dump, section)) << section;
+    EXPECT_EQ(off.statistics.transientBytes, without.statistics.transientBytes);
+    EXPECT_TRUE(test::sameBits(off.display, without.display));
+    EXPECT_FALSE(test::sameBits(on.display, without.display));
+    EXPECT_FALSE(off.intermediates.contains("particles"));
+    // Once over the picture, once alone.
+    const auto drawn = listParts(on.dump, "passes");
+    EXPECT_EQ(
+        std::count_if(
+            drawn.begin(),
+            drawn.end(),
+            [](const std::string& pass) { return pass.starts_with("'particles'"); }
+        ),
+        2
+    );
+    EXPECT_GT(on.intermediates.at("particles").at(160, 90, 0), 0.0f);
 }
 
 TEST_F(Demand, AntiAliasingWhereNothingMovesHasOnePassAndOneImage) {

@@ -69,6 +69,7 @@ class DemoSource : public SequenceSource {
         view.background = look.background;
         view.ambient = look.ambient;
         view.unlit = mOptions.unlit;
+        view.particles = mOptions.picture.particles;
         view.shadows = mOptions.picture.shadows;
         return view;
     }

@@ -50,6 +50,8 @@ void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
         settings.environment = !settings.environment;
     if (input.wasPressed(Key::Digit9))
         picture.bloom.share = picture.bloom.share > 0.0f ? 0.0f : makePlayPicture().bloom.share;
+    if (input.wasPressed(Key::Digit0))
+        picture.particles = !picture.particles;
 }
 
 } // namespace

@@ -58,6 +58,7 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
     return a.view.camera == b.view.camera && a.view.width == b.view.width &&
            a.view.height == b.view.height && a.view.background == b.view.background &&
            a.view.ambient == b.view.ambient && a.view.environment == b.view.environment &&
+           a.view.particles == b.view.particles &&
            core::areEqual(extract::listShadowRows(), a.view.shadows, b.view.shadows) &&
            first.open == second.open && first.raster == second.raster &&
            first.close == second.close &&

@@ -478,6 +478,7 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
     picture.view.environment = mSettings.environment;
+    picture.view.particles = mSettings.picture.particles;
     picture.view.shadows = mSettings.picture.shadows;
     picture.window.size = sizePx;
     picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();

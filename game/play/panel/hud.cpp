@@ -326,6 +326,8 @@ std::string describeEffects(const PlaySettings& settings) {
         add("sky");
     if (picture.bloom.share > 0.0f)
         add("bloom");
+    if (picture.particles)
+        add("particles");
     return text;
 }
 

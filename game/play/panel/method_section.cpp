@@ -196,11 +196,12 @@ void drawEffectSection(PlaySettings& settings) {
         settings.picture.antiAliasing = effects.antiAliasing;
         settings.picture.shadows.mode = effects.shadows.mode;
         settings.picture.bloom.share = effects.bloom.share;
+        settings.picture.particles = effects.particles;
     };
     if (buttons.add("All", "All effects beside the blur, as a new player has them."))
         set(kFresh.environment, kFresh.picture);
     if (buttons.add("None", "No effect beside the blur."))
-        set(false, PictureSettings());
+        set(false, PictureSettings{.particles = false});
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

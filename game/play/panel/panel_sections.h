@@ -67,7 +67,7 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
     const motion_blur::BlurBudget& budget
 );
 
-/// The effects beside the blur that are on, "taa, blurred shadows, sky, bloom".
+/// The effects beside the blur that are on, "taa, blurred shadows, sky, bloom, particles".
 [[nodiscard]] std::string describeEffects(const PlaySettings& settings);
 
 /// "motion blur 12.3 ms (19 % of the frame)".

@@ -214,6 +214,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--max-step", {"--method", "accumulate", "--instants", "auto", "--max-step", "2"}},
         {"--method", {"--method", "gather"}},
         {"--object-blur", {"--object-blur", "0.5"}},
+        {"--particles", {"--particles", "off"}},
         {"--phase", {"--phase", "start"}},
         {"--pixel", {"--method", "truth", "--pixel", "box"}},
         {"--rays", {"--rays", "none"}},

@@ -54,6 +54,7 @@ TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
     settings.picture.shadows.mode = extract::ShadowMode::None;
     settings.environment = false;
     settings.picture.bloom.share = 0.0f;
+    settings.picture.particles = false;
     press({Key::Digit6});
     EXPECT_EQ(settings.picture.antiAliasing, AntiAliasing::Taa);
     EXPECT_EQ(describeEffects(settings), "taa");
@@ -71,6 +72,8 @@ TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
     EXPECT_EQ(describeEffects(settings), "bloom");
     press({Key::Digit9});
     EXPECT_EQ(describeEffects(settings), "");
+    press({Key::Digit0});
+    EXPECT_EQ(describeEffects(settings), "particles");
 }
 
 TEST_F(Hotkeys, ViewsComeBackToThePicture) {
