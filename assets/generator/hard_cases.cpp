@@ -37,6 +37,11 @@ BenchCase makeCase(
         .peakMotionPx = peakMotionPx};
 }
 
+BenchCase withParticlesAlone(BenchCase one) {
+    one.movesParticles = true;
+    return one;
+}
+
 std::vector<BenchCase> makeCases() {
     return {
         makeCase(
@@ -227,6 +232,33 @@ std::vector<BenchCase> makeCases() {
             kYardSky,
             {30.0f, 42.0f}
         ),
+        withParticlesAlone(makeCase(
+            "sparks",
+            "Sparks",
+            "A grinder throws sparks that cover what is behind them: they have no motion vectors, "
+            "and an exposure sees each of them elsewhere",
+            &buildSparksCase,
+            kYardSky,
+            {26.0f, 36.0f}
+        )),
+        withParticlesAlone(makeCase(
+            "smoke",
+            "Smoke",
+            "Turning puffs drift by over one another and fade before the wall, so that no pixel "
+            "has one motion",
+            &buildSmokeCase,
+            kYardSky,
+            {15.0f, 25.0f}
+        )),
+        withParticlesAlone(makeCase(
+            "additive_sparks",
+            "Additive sparks",
+            "Three hundred sparks of up to twelve times white, born and dying in the exposure: "
+            "each is seen for its share of it, and their light adds up",
+            &buildAdditiveSparksCase,
+            kYardSky,
+            {28.0f, 42.0f}
+        )),
     };
 }
 

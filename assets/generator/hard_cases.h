@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Twenty-one scenes, each made to be hard for motion blur in one way that the literature names.
+// Twenty-four scenes, each made to be hard for motion blur in one way that the literature names.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -27,8 +27,10 @@ struct BenchCase {
     const char* phase = "end"; ///< as `shutter render --phase` takes it
     const char* camera = "main";
     glm::vec3 background; ///< linear RGB where nothing is hit
-    /// Bounds of the longest motion of any pixel over the exposure, at kCaseSizePx; [x, y].
+    /// Bounds of the longest motion of any pixel or particle over the exposure, at kCaseSizePx;
+    /// [x, y].
     glm::vec2 peakMotionPx;
+    bool movesParticles = false; ///< what moves are particles alone
 };
 
 /// In the order in which they are meant to be read.
@@ -56,8 +58,6 @@ struct BenchCase {
 [[nodiscard]] GltfWriter buildSlidingPaneCase();
 [[nodiscard]] GltfWriter buildBehindGlassCase();
 [[nodiscard]] GltfWriter buildGlassCarriageCase();
-
-// Scenes of particles alone, for the same time; listHardCases() has scenes with moving meshes only.
 [[nodiscard]] GltfWriter buildSparksCase();
 [[nodiscard]] GltfWriter buildSmokeCase();
 [[nodiscard]] GltfWriter buildAdditiveSparksCase();

@@ -36,9 +36,6 @@ std::vector<Output> listOutputs(bool all) {
         for (const BenchCase& hardCase : listHardCases()) {
             outputs.push_back({hardCase.name, hardCase.build});
         }
-        outputs.push_back({"sparks", &buildSparksCase});
-        outputs.push_back({"smoke", &buildSmokeCase});
-        outputs.push_back({"additive_sparks", &buildAdditiveSparksCase});
     }
     return outputs;
 }

@@ -2,10 +2,12 @@
 // The scenes that the game makes for itself go through the loader as any other file does.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scaling_scenes.h"
+#include "engine/extract/particles.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
+#include "engine/scene/shutter.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -82,6 +84,23 @@ size_t countMovers(const scene::World& world, ecs::Entity camera, double open, d
     return movers;
 }
 
+/// The longest way of a particle in the picture, pixels.
+float measureParticles(const scene::World& world, ecs::Entity camera, const BenchCase& hardCase) {
+    scene::CameraShutter shutter;
+    shutter.exposureSeconds = hardCase.exposureSeconds;
+    shutter.phase = scene::ShutterPhase::End;
+    extract::ViewRequest view;
+    view.camera = camera;
+    view.exposure = scene::computeExposure(shutter, hardCase.timeSeconds, hardCase.exposureSeconds);
+    view.width = static_cast<uint32_t>(kCaseSizePx.x);
+    view.height = static_cast<uint32_t>(kCaseSizePx.y);
+    const auto particles = extract::extractParticles(
+        world, view, extract::FrameView(world, view), extract::ParticleTime::Exposure
+    );
+    EXPECT_TRUE(particles.ok());
+    return particles ? particles.value().longestWayPx : 0.0f;
+}
+
 class HardCase : public testing::TestWithParam<BenchCase> {};
 
 TEST_P(HardCase, LoadsWithoutAWarningAndMovesDuringItsExposure) {
@@ -90,7 +109,14 @@ TEST_P(HardCase, LoadsWithoutAWarningAndMovesDuringItsExposure) {
     const ecs::Entity* camera = findCamera(world, hardCase.camera);
     ASSERT_NE(camera, nullptr);
     const double close = hardCase.timeSeconds;
-    EXPECT_GE(countMovers(world, *camera, close - hardCase.exposureSeconds, close), 1u);
+    const size_t movers = countMovers(world, *camera, close - hardCase.exposureSeconds, close);
+    const float wayPx = measureParticles(world, *camera, hardCase);
+    EXPECT_EQ(movers == 0, hardCase.movesParticles);
+    EXPECT_EQ(wayPx > 0.0f, hardCase.movesParticles);
+    if (hardCase.movesParticles) {
+        EXPECT_GE(wayPx, hardCase.peakMotionPx.x);
+        EXPECT_LE(wayPx, hardCase.peakMotionPx.y);
+    }
     // Enough for a scene, few enough for a software device.
     EXPECT_GE(countTriangles(world), 5'000u);
     EXPECT_LE(countTriangles(world), 25'000u);

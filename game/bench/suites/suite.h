@@ -78,7 +78,7 @@ makeWriter(std::function<generator::GltfWriter()> build);
 
 /// The paper's shot: a vase that crosses in front of a sofa.
 [[nodiscard]] Suite makePaperSuite();
-/// Twenty-one shots in which methods are known to fail.
+/// Twenty-four shots in which methods are known to fail.
 [[nodiscard]] Suite makeHardSuite();
 /// Resolution, entities, triangles, moving share of the screen, exposure.
 [[nodiscard]] Suite makeScalingSuite();

@@ -168,7 +168,10 @@ TEST(HardCases, AreTheOnesThatTheBenchPromises) {
         "collapsing_limb",
         "sliding_pane",
         "mover_behind_glass",
-        "glass_carriage"};
+        "glass_carriage",
+        "sparks",
+        "smoke",
+        "additive_sparks"};
     EXPECT_EQ(names, promised);
     EXPECT_EQ(listHardCases().size(), promised.size()) << "a name stands twice";
 }
