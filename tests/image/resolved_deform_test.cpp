@@ -253,6 +253,14 @@ TEST_F(ResolvedDeform, AWayThatBendsIsFollowed) {
     EXPECT_LT(compareWithTruth(scene, shotOf("sharp")), 24.0) << "the shot is hard";
 }
 
+TEST_F(ResolvedDeform, ASkinBeforeAWallBlursUnderACameraThatPans) {
+    SceneBuilder scene = makeRoom();
+    addWaver(scene, 12.0, {-3, 0, 0});
+    scene.moveCamera({.velocity = {2, 0, 0}, .angularVelocity = {0, 8.0, 3.0}});
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 33.0);
+    EXPECT_LT(compareWithTruth(scene, shotOf("sharp")), 24.0) << "the shot is hard";
+}
+
 TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreToldApart) {
     SceneBuilder scene = makeRoom();
     addWaver(scene, 8.0, {9, 0, 0});
