@@ -12,6 +12,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -182,10 +183,18 @@ struct Sequence {
     std::vector<render::Counters> counters;
 };
 
-Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
-    // The mover comes and goes, under a camera that moves, and sparks fly.
+Sequence draw(gpu::Device& device, const std::string& method, uint32_t framesInFlight) {
+    // The mover comes and goes, under a camera that moves, a pane crosses it, and sparks fly.
     Crowd crowd(40);
     crowd.scene.moveCamera({.velocity = {0.1, 0, 0}});
+    scene::Material glass;
+    glass.unlit = true;
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.baseColorFactor = {0.1f, 0.9f, 0.4f, 0.6f};
+    crowd.scene.add(
+        test::makeQuad(0.5, 0.4, crowd.scene.addMaterial(glass)),
+        {.position = {0.1, 0.1, -1.5}, .velocity = {-1.0, 0.2, 0}, .angularVelocity = {0, 0, 2}}
+    );
     scene::World& world = crowd.scene.world;
     const ecs::Entity sparks = world.registry.create();
     math::Transform place;
@@ -199,16 +208,16 @@ Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
     world.registry.add(sparks, emitter);
     render::Renderer renderer(device, world.assets, framesInFlight);
     motion_blur::MotionBlurPlugin blur(
-        device, renderer.scene(), {.method = &motion_blur::getMethod("hybrid")}
+        device, renderer.scene(), {.method = &motion_blur::getMethod(method)}
     );
     std::array<render::PostEffect*, 1> effects{&blur};
     Sequence sequence;
     const auto finish = [&] {
         render::FrameResult result = renderer.finishFrame();
         sequence.colors.push_back(std::move(result.color));
-        // How many rows were written depends on what each frame in flight held before.
-        result.statistics.counters.erase("entity rows written");
-        result.statistics.counters.erase("entity motions written");
+        // How many rows were written, and what is kept, depends on how many are in flight.
+        for (const char* own : {"entity rows written", "entity motions written", "history bytes"})
+            result.statistics.counters.erase(own);
         sequence.counters.push_back(result.statistics.counters);
     };
     for (int i = 0; i < kFrames; ++i) {
@@ -235,16 +244,22 @@ Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
 class FramesInFlight : public test::RayTest {};
 
 TEST_F(FramesInFlight, GiveThePicturesAndCountersOfFramesOneByOne) {
-    const Sequence alone = draw(device(), 1);
-    ASSERT_EQ(alone.colors.size(), size_t{kFrames});
-    EXPECT_GT(alone.counters[2].at("pixels masked"), 100u);
-    EXPECT_NE(alone.counters[2], alone.counters[4]);
-    for (const uint32_t count : {2u, gpu::kMaxFramesInFlight}) {
-        const Sequence ahead = draw(device(), count);
-        ASSERT_EQ(ahead.colors.size(), alone.colors.size());
-        for (size_t i = 0; i < alone.colors.size(); ++i) {
-            EXPECT_TRUE(test::sameBits(ahead.colors[i], alone.colors[i])) << count << ", " << i;
-            EXPECT_EQ(ahead.counters[i], alone.counters[i]) << count << ", " << i;
+    for (const std::string method : {"hybrid", "resolved"}) {
+        const Sequence alone = draw(device(), method, 1);
+        ASSERT_EQ(alone.colors.size(), size_t{kFrames});
+        if (method == "hybrid") {
+            EXPECT_GT(alone.counters[2].at("pixels masked"), 100u);
+        }
+        EXPECT_GT(alone.counters[2].at("blended instants"), 1u);
+        EXPECT_NE(alone.counters[2], alone.counters[4]);
+        for (const uint32_t count : {2u, gpu::kMaxFramesInFlight}) {
+            const Sequence ahead = draw(device(), method, count);
+            ASSERT_EQ(ahead.colors.size(), alone.colors.size());
+            for (size_t i = 0; i < alone.colors.size(); ++i) {
+                EXPECT_TRUE(test::sameBits(ahead.colors[i], alone.colors[i]))
+                    << method << count << ", " << i;
+                EXPECT_EQ(ahead.counters[i], alone.counters[i]) << method << count << ", " << i;
+            }
         }
     }
 }
