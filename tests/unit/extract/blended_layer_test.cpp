@@ -173,5 +173,22 @@ TEST_F(BlendedLayers, WhatIsBesideThePictureIsNotDrawn) {
     EXPECT_EQ(findLayer().size(), 1u);
 }
 
+TEST(LayerInstants, AreTakenAlikeInBothDirectionsOfTime) {
+    for (uint32_t all = 1; all <= 40; ++all)
+        for (uint32_t count = 1; count <= all; ++count)
+            for (uint32_t i = 0; i < count; ++i) {
+                const uint32_t taken = shader::takenInstant(i, count, all);
+                EXPECT_LT(taken, all);
+                if (i > 0) {
+                    EXPECT_GT(taken, shader::takenInstant(i - 1, count, all));
+                }
+                const uint32_t fromEnd = count - 1 - i;
+                if (i == fromEnd) // no instant of an even number is in the middle
+                    continue;
+                EXPECT_EQ(shader::takenInstant(fromEnd, count, all), all - 1 - taken)
+                    << i << " of " << count << " of " << all;
+            }
+}
+
 } // namespace
 } // namespace shutter::extract
