@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Temporal anti-aliasing against the mean over the pixel: better than one sample a pixel where
 // history is of the same surface, and no worse where something has just moved away.
+#include "engine/scene/particle_emitter.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 
 #include <cmath>
 #include <functional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,7 @@ class TaaLaw : public test::GpuTest {
     /// The picture at kSeconds, by the frames before it where there is history.
     image::Image draw(AntiAliasing antiAliasing) {
         const test::Shot shot{
+            .method = mMethod,
             .seconds = kSeconds,
             .exposureSeconds = 1.0 / 60.0,
             .phase = scene::ShutterPhase::End,
@@ -74,7 +77,23 @@ class TaaLaw : public test::GpuTest {
         return std::sqrt(sum / double(count));
     }
 
+    /// One particle, alive since `seconds`, grey.
+    void addParticle(const math::dvec3& position, const math::dvec3& velocity, double seconds) {
+        const ecs::Entity entity = mScene.world.registry.create();
+        math::Transform transform;
+        transform.translation = position;
+        mScene.world.registry.add(entity, scene::LocalTransform{transform});
+        scene::ParticleEmitter emitter;
+        emitter.bursts = {{.seconds = seconds, .count = 1}};
+        emitter.lifeSeconds = 10.0;
+        emitter.velocity = velocity;
+        emitter.sizeBirth = emitter.sizeDeath = 1.6;
+        emitter.colors.fill(math::vec4(0.45f, 0.45f, 0.45f, 1.0f));
+        mScene.world.registry.add(entity, emitter);
+    }
+
     test::SceneBuilder mScene;
+    std::string_view mMethod = "sharp";
 };
 
 TEST_F(TaaLaw, NothingStaysBehindWhatMoves) {
@@ -138,6 +157,50 @@ TEST_F(TaaLaw, WhatComesIntoThePictureHasNoHistory) {
     // The camera moves by nearly seven pixels a frame.
     const Region isNew = [](uint32_t x, uint32_t) { return x > kWidth - 6; };
     EXPECT_LT(measureError(AntiAliasing::Taa, isNew), measureError(AntiAliasing::None, isNew));
+}
+
+TEST_F(TaaLaw, AParticleThatHangsInTheAirIsWhereTheMeanOverThePixelHasIt) {
+    addTiles({.position = {0, 0, -5}});
+    addParticle({0.3, 0.2, -4}, {}, 0.0);
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        mMethod = method;
+        EXPECT_LT(measureError(AntiAliasing::Taa), 0.55 * measureError(AntiAliasing::None))
+            << method;
+    }
+}
+
+TEST_F(TaaLaw, ABlurredParticleLeavesNothingBehind) {
+    mMethod = "resolved";
+    addTiles({.position = {0, 0, -5}});
+    const double speed = 9.0;
+    addParticle({0.5 - speed * kSeconds, 0, -4}, {speed, 0, 0}, 0.0);
+    const Region isBehind = [](uint32_t x, uint32_t y) {
+        return x < kWidth / 2 - 2 && y > 24 && y < 40;
+    };
+    EXPECT_LT(
+        measureError(AntiAliasing::Taa, isBehind), 0.65 * measureError(AntiAliasing::None, isBehind)
+    );
+}
+
+TEST_F(TaaLaw, EdgesOfGlassInTheLayerAreSmooth) {
+    mMethod = "resolved";
+    mScene.add(
+        test::makeQuad(12.0, 12.0, mScene.addColor(math::vec3(0.05f))), {.position = {0, 0, -5}}
+    );
+    scene::Material glass;
+    glass.unlit = true;
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.baseColorFactor = {0.9f, 0.9f, 0.9f, 0.8f};
+    mScene.add(
+        test::makeQuad(1.9, 1.5, mScene.addMaterial(glass)),
+        {.position = {0, 0, -3}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
+    );
+    // A mover behind it takes it out of the raster.
+    mScene.add(
+        test::makeQuad(0.3, 0.3, mScene.addColor(math::vec3(0.3f))),
+        {.position = {0.0, -1.0, -4}, .velocity = {0, 1.0, 0}}
+    );
+    EXPECT_LT(measureError(AntiAliasing::Taa), 0.6 * measureError(AntiAliasing::None));
 }
 
 } // namespace
