@@ -2,6 +2,7 @@
 // Blended surfaces that move, or that something passes: drawn at instants over the blurred picture.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
+#include "modules/motion_blur/budget.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -156,9 +157,12 @@ TEST_F(BlendedLayerLaw, PanesBeforeOneAnotherHaveTheOrderOfTheRaster) {
         {.position = {0.8, 0, -2.5}, .velocity = {0.4, 0, 0}, .angularVelocity = {0, 1, 0}}
     );
     EXPECT_GT(measure(scene, "resolved"), 42.0);
+    // Of many colours, so that the order is seen.
     SceneBuilder slow = makeWall();
+    const auto material = addGlass(slow, {1, 1, 1}, 0.5f);
+    slow.world.assets.materials[material].baseColor.texture = slow.addWaveTexture();
     slow.add(
-        test::makeBox({0.8, 0.7, 0.7}, addGlass(slow, {0.9f, 0.9f, 0.2f}, 0.5f)),
+        test::makeBox({0.8, 0.7, 0.7}, material),
         {.position = {0.3, 0.2, -2.5}, .velocity = {0.002, 0, 0}}
     );
     const auto frame = draw(slow, "resolved");
@@ -205,6 +209,71 @@ TEST_F(BlendedLayerLaw, WhatAPaneAndAMoverCoverTogetherIsNotTakenApart) {
     );
     EXPECT_GT(measure(scene, "resolved"), measure(scene, "gather") + 6.0);
     EXPECT_GT(measure(scene, "resolved"), 42.0);
+}
+
+TEST_F(BlendedLayerLaw, GlassThatAMoverHidesAtEachInstantIsNeverSeen) {
+    // Behind it, as fast in the picture, and smaller: 60 pixels, four from instant to instant.
+    const auto make = [](bool hasGlass) {
+        SceneBuilder scene = makeWall();
+        for (const double y : {0.35, -0.35})
+            scene.add(
+                test::makeQuad(0.3, 0.4, scene.addColor({0.9f, 0.2f, 0.1f})),
+                {.position = {0, y, -2}, .velocity = {3.6, 0, 0}}
+            );
+        if (!hasGlass)
+            return scene;
+        const auto glass = addGlass(scene, {0.1f, 0.9f, 0.2f}, 0.9f);
+        scene::Primitive quad = test::makeQuad(0.33, 0.4, glass);
+        scene.add(quad, {.position = {0, 0.4375, -2.5}, .velocity = {4.5, 0, 0}});
+        scene::Primitive morph = quad;
+        morph.morphTargets.push_back(
+            {.positions = std::vector<math::vec3>(quad.positions.size(), math::vec3(4.5f, 0, 0))}
+        );
+        test::addMorphed(
+            scene,
+            std::move(morph),
+            {.position = {0, -0.4375, -2.5}},
+            {.from = {-1.0f}, .to = {1.0f}}
+        );
+        return scene;
+    };
+    const auto frame = draw(make(true), "resolved");
+    EXPECT_TRUE(test::hasPass(frame, kLayerPass));
+    EXPECT_LT(
+        test::computeMaxDifferenceWhere(
+            frame.color,
+            draw(make(false), "resolved").color,
+            [](uint32_t, uint32_t) { return true; }
+        ),
+        5.0e-3
+    );
+}
+
+TEST_F(BlendedLayerLaw, GlassOnAMoverThatComesNearerIsNotHiddenByIt) {
+    SceneBuilder scene = makeWall();
+    const Placement way{.position = {0.1, 0, -2.4}, .velocity = {1.2, 0, 2.4}};
+    scene.add(test::makeQuad(1.2, 1.0, scene.addColor({0.9f, 0.2f, 0.1f})), way);
+    // A millimetre before it, which is less than a half float tells apart.
+    Placement before = way;
+    before.position.z += 1.0e-3;
+    scene.add(test::makeQuad(0.7, 0.6, addGlass(scene, {0.1f, 0.9f, 0.2f}, 0.6f)), before);
+    for (const std::string_view method : {"resolved", "gather"})
+        EXPECT_TRUE(test::hasPass(draw(scene, method), kLayerPass));
+    EXPECT_GT(measure(scene, "resolved"), 38.0);
+}
+
+TEST_F(BlendedLayerLaw, OfAsManyPartsAsInstantsEachLiesOverWhatIsBehindItThen) {
+    SceneBuilder scene = makeWall();
+    addBox(scene, {.position = {0, 0, -2.6}, .velocity = {2.4, 0, 0}});
+    scene.add(
+        test::makeQuad(0.42, 0.42, addGlass(scene, {0.1f, 0.2f, 0.9f}, 0.7f)),
+        {.position = {0, 0, -2.4}, .velocity = {2.4, 0, 0}}
+    );
+    Shot shot = shotBy("resolved");
+    shot.settings.sampleCount = shot.instants = 4;
+    const image::Image layered = test::renderOnce(device(), scene, shot).color;
+    shot.method = "accumulate";
+    EXPECT_GT(image::computePsnr(layered, test::renderOnce(device(), scene, shot).color), 42.0);
 }
 
 TEST_F(BlendedLayerLaw, AnExcludedPaneStaysSharp) {
@@ -310,6 +379,112 @@ TEST_F(BlendedLayerLaw, AFrameAfterOneThatHadThePaneInItsRasterDoesNotSeeItTwice
         EXPECT_TRUE(test::sameBits(frame.color, alone.draw(shotAt(i)).color)) << i;
     }
     EXPECT_TRUE(changed) << "the pane leaves the raster between two frames";
+}
+
+TEST_F(BlendedLayerLaw, BeforeAStillWallItIsTheMeanOfItsInstants) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0.4, 0}});
+    for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle}) {
+        Shot shot = shotBy("resolved");
+        shot.shutter.response.shape = shape;
+        const auto frame = test::renderOnce(device(), scene, shot);
+        shot.method = "accumulate";
+        shot.instants = uint32_t(frame.statistics.counters.at("blended instants"));
+        EXPECT_GT(shot.instants, 8u);
+        EXPECT_LT(shot.instants, 15u) << "as many as its way takes";
+        const image::Image mean = test::renderOnce(device(), scene, shot).color;
+        EXPECT_GT(image::computePsnr(frame.color, mean), 60.0);
+    }
+}
+
+TEST_F(BlendedLayerLaw, GlassThatNothingShinesThroughIsTheSamePaneWithoutBlending) {
+    const math::vec3 color(0.2f, 0.5f, 0.9f);
+    const auto make = [&](bool isGlass) {
+        SceneBuilder scene = makeWall();
+        addBox(scene, {.position = {0.3, 0.1, -3}, .velocity = {-1.5, 0, 0}});
+        const auto material = isGlass ? addGlass(scene, color, 1.0f) : scene.addColor(color);
+        scene.add(
+            test::makeQuad(0.9, 0.7, material), {.position = {0, 0, -2}, .velocity = {1.6, 0.4, 0}}
+        );
+        return scene;
+    };
+    const auto glass = draw(make(true), "resolved");
+    EXPECT_TRUE(test::hasPass(glass, kLayerPass));
+    Shot truth = shotBy("accumulate");
+    truth.instants = 128;
+    EXPECT_GT(
+        image::computePsnr(glass.color, test::renderOnce(device(), make(false), truth).color), 45.0
+    );
+}
+
+TEST_F(BlendedLayerLaw, WithoutAnExposureOrAtACutThePictureIsTheSharpOne) {
+    SceneBuilder scene = makeWall();
+    addBox(scene, {.position = {0, 0, -3}, .velocity = {-1.5, 0, 0}});
+    addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0, 0}});
+    const image::Image sharp = draw(scene, "sharp").color;
+    Shot shot = shotBy("resolved");
+    shot.exposureSeconds = 0.0;
+    EXPECT_TRUE(test::sameBits(test::renderOnce(device(), scene, shot).color, sharp));
+    EXPECT_FALSE(test::sameBits(draw(scene, "resolved").color, sharp));
+    scene::cut(scene.world, scene.camera, 0.0);
+    const auto frame = draw(scene, "resolved");
+    EXPECT_FALSE(test::hasPass(frame, kLayerPass));
+    EXPECT_TRUE(test::sameBits(frame.color, sharp));
+}
+
+TEST_F(BlendedLayerLaw, ASurfaceIsSeenFromItsFrontAloneAlsoWhereItIsMirrored) {
+    SceneBuilder scene = makeWall();
+    const auto glass = addGlass(scene, {0.2f, 0.5f, 0.9f}, 0.6f);
+    scene.world.assets.materials[glass].doubleSided = false;
+    const auto mesh = scene.addMesh({test::makeQuad(0.5, 0.5, glass)});
+    const math::dquat away = glm::angleAxis(glm::pi<double>(), math::dvec3(0, 1, 0));
+    const auto add = [&](double x, const Placement& placement) {
+        Placement placed = placement;
+        placed.position = {x, 0, -2};
+        placed.velocity = {0, 1.2, 0};
+        scene.add(mesh, placed);
+    };
+    add(-0.9, {});
+    add(-0.3, {.scale = {-1, 1, 1}});
+    add(0.3, {.rotation = away});
+    add(0.9, {.rotation = away, .scale = {-1, 1, 1}});
+    EXPECT_GT(measure(scene, "resolved"), 45.0);
+    const image::Image picture = draw(scene, "resolved").color;
+    const image::Image wall = draw(makeWall(), "resolved").color;
+    const auto isInHalf = [](bool right) {
+        return [right](uint32_t x, uint32_t) { return (x >= 96) == right; };
+    };
+    EXPECT_GT(test::computeMaxDifferenceWhere(picture, wall, isInHalf(false)), 0.1);
+    EXPECT_EQ(test::computeMaxDifferenceWhere(picture, wall, isInHalf(true)), 0.0);
+}
+
+TEST_F(BlendedLayerLaw, APaneThatEntersThePictureIsSeenOnItsWay) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {-1.9, 0.5, -2}, .velocity = {2.4, 0, 0}});
+    addPane(scene, 0.5f, {.position = {1.0, -1.3, -2}, .velocity = {0, -2.4, 0}});
+    EXPECT_GT(measure(scene, "resolved"), 45.0);
+    EXPECT_LT(measure(scene, "sharp"), 35.0);
+}
+
+TEST_F(BlendedLayerLaw, EachLevelOfABudgetIsBetterThanSharpAndHasTheSameBitsAgain) {
+    SceneBuilder scene = makeWall();
+    addBox(scene, {.position = {0.4, 0.1, -3}, .velocity = {-2.0, 0, 0}});
+    addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {2.4, 0.4, 0}});
+    const double sharp = measure(scene, "sharp");
+    Shot truth = shotBy("accumulate");
+    truth.instants = 128;
+    const image::Image reference = test::renderOnce(device(), scene, truth).color;
+    const auto levels = motion_blur::makeLevels({.method = &motion_blur::getMethod("resolved")});
+    ASSERT_GE(levels.size(), 4u);
+    for (size_t level = 0; level < levels.size(); ++level) {
+        Shot shot = shotBy(levels[level].settings.method->name);
+        shot.settings = levels[level].settings;
+        const auto frame = test::renderOnce(device(), scene, shot);
+        EXPECT_TRUE(test::hasPass(frame, kLayerPass)) << level;
+        EXPECT_GT(image::computePsnr(frame.color, reference), sharp + 1.0) << level;
+        EXPECT_TRUE(test::sameBits(frame.color, test::renderOnce(device(), scene, shot).color))
+            << level;
+    }
 }
 
 /// Two panes of a mode that cross before the wall, one within the other's reach.
