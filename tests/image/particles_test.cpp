@@ -7,6 +7,7 @@
 #include "tests/support/stage.h"
 #include "tests/support/white_quads.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -230,6 +231,44 @@ TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {
     EXPECT_LE(image::computePsnr(stage.render(makeShot("sharp")).color, truth), 20.0);
 }
 
+TEST_F(ParticleLaw, ThroughHolesOfAPictureShowsWhatLiesBehind) {
+    PixelScene scene;
+    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].onParticles = true;
+    scene.add(
+        test::makeQuad(100, 80, scene.addColor({0.6f, 0.6f, 0.6f})), {.position = {0, 0, -20}}
+    );
+    ParticleEmitter emitter = makeOne(40.0, {200.0, 0.0, 0.0}, -0.1);
+    emitter.texture = 0;
+    scene.emit(emitter, {-12.0, 0.0, -10.0});
+    Stage stage(device(), scene);
+    const image::Image truth = stage.render(makeShot("accumulate")).color;
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        const image::Image picture = stage.render(makeShot(method)).color;
+        EXPECT_LE(*std::max_element(picture.pixels.begin(), picture.pixels.end()), 1.001f);
+        EXPECT_NEAR(sumLight(picture) / sumLight(truth), 1.0, 0.02) << method;
+    }
+}
+
+TEST_F(ParticleLaw, AWayThatBendsOrGoesIntoAWallIsSeenAsAtItsInstants) {
+    const auto compare = [&](bool bends) {
+        PixelScene scene;
+        scene.add(
+            test::makeQuad(100, 80, scene.addColor({0.1f, 0.2f, 0.3f})), {.position = {0, 0, -12}}
+        );
+        // As it is at the exposure's end, or in its middle where it meets the wall.
+        ParticleEmitter emitter = makeOne(9.0, {300.0, 250.0, bends ? 0.0 : -100.0}, -kExposure);
+        if (bends)
+            emitter.gravity = dvec3(0.0, -5000.0, 0.0);
+        scene.emit(emitter, {-15.0, -5.0, bends ? -10.0 : -7.0});
+        Stage stage(device(), scene);
+        return image::computePsnr(
+            stage.render(makeShot("resolved")).color, stage.render(makeShot("accumulate")).color
+        );
+    };
+    EXPECT_GT(compare(true), 38.0);
+    EXPECT_GT(compare(false), 50.0);
+}
+
 TEST_F(ParticleLaw, WhatLiesBeforeThemHidesThem) {
     for (const std::string_view method : {"sharp", "resolved"}) {
         PixelScene scene;
@@ -413,6 +452,86 @@ TEST_F(ParticleLaw, LitOnesSendBackTheLightFromEverywhereAndOfLamps) {
     EXPECT_NEAR(test::renderOnce(device(), scene, shot).color.at(48, 32, 1), 0.4f, 2e-3f);
     scene.addSun({0.0, -1.0, 0.0}, 12.5663706f);
     EXPECT_NEAR(test::renderOnce(device(), scene, shot).color.at(48, 32, 1), 0.9f, 4e-3f);
+}
+
+TEST_F(ParticleLaw, AfterTenHoursThePictureIsThatOfTheBeginning) {
+    // Without anything random, since what is random hangs on when a span begins.
+    const auto drawAt = [&](double hours, std::string_view method) {
+        PixelScene scene;
+        ParticleEmitter emitter = makeShower();
+        const double begin = hours * 3600.0;
+        emitter.spans.clear();
+        for (int i = 0; i < 24; ++i)
+            emitter.bursts.push_back({.seconds = begin - 0.4 + i / 64.0, .count = 1});
+        emitter.coneDegrees = emitter.lifeSpread = 0.0;
+        const ecs::Entity entity = scene.emit(emitter, {-10.0, -10.0, -10.0});
+        // It is at the same places, and turns the same way.
+        scene.world.registry.get<scene::LocalTransform>(entity).transform.translation.x -=
+            40.0 * begin;
+        scene.world.registry.add(entity, scene::LinearVelocity{dvec3(40.0, 0.0, 0.0)});
+        Shot shot = makeShot(method);
+        shot.seconds = begin;
+        return test::renderOnce(device(), scene, shot).color;
+    };
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        const image::Image first = drawAt(0.0, method);
+        ASSERT_GT(sumLight(first), 10.0);
+        EXPECT_LT(
+            test::computeMaxDifferenceWhere(
+                drawAt(10.0, method), first, [](uint32_t, uint32_t) { return true; }
+            ),
+            2.0e-3
+        ) << method;
+    }
+}
+
+TEST_F(ParticleLaw, NearTheEyeTheyFadeAndBehindItTheyAreNotSeen) {
+    const auto makeWall = [] {
+        SceneBuilder scene;
+        scene.setPerspective(0.9);
+        scene.add(
+            test::makeQuad(9.0, 6.0, scene.addColor({0.2f, 0.4f, 0.6f})), {.position = {0, 0, -4}}
+        );
+        return scene;
+    };
+    const auto drawWith = [&](double z, double speed, std::string_view method) {
+        SceneBuilder scene = makeWall();
+        const ecs::Entity entity = scene.world.registry.create();
+        math::Transform transform;
+        transform.translation = {0.1, 0.05, z};
+        scene.world.registry.add(entity, scene::LocalTransform{transform});
+        ParticleEmitter emitter = makeOne(0.5, {0.2, 0.0, speed}, 0.0);
+        scene.world.registry.add(entity, emitter);
+        Shot shot = makeShot(method);
+        shot.seconds = kExposure;
+        shot.instants = 128;
+        return test::renderOnce(device(), scene, shot).color;
+    };
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        const image::Image wall = test::renderOnce(device(), makeWall(), makeShot(method)).color;
+        for (const double z : {0.0, 0.3, 1.0, 40.0}) // behind the eye, or in it
+            EXPECT_TRUE(test::sameBits(drawWith(z, 0.0, method), wall)) << z << method;
+        // One that its plane cuts, those before it, and one that comes from behind the wall.
+        double before = 0.0;
+        for (const double z : {-0.06, -0.1, -0.2, -0.4, -0.56}) {
+            const image::Image picture = drawWith(z, 0.0, method);
+            double most = 0.0;
+            for (size_t i = 0; i < picture.pixels.size(); ++i)
+                most = std::max(most, double(picture.pixels[i]));
+            EXPECT_TRUE(test::allFinite(picture)) << z << method;
+            EXPECT_LE(most, 1.001) << z << method;
+            const double shown = double(picture.at(50, 30, 0)) - 0.2;
+            EXPECT_GE(shown, before) << "it fades" << z << method;
+            before = shown;
+        }
+        EXPECT_GT(before, 0.5);
+    }
+    for (const double speed : {9.0, -9.0}) { // it crosses the plane half way
+        const double z = -0.05 - 0.5 * speed * kExposure;
+        const image::Image blurred = drawWith(z, speed, "resolved");
+        EXPECT_TRUE(test::allFinite(blurred));
+        EXPECT_GT(image::computePsnr(blurred, drawWith(z, speed, "accumulate")), 30.0) << speed;
+    }
 }
 
 class ParticleRayLaw : public test::RayTest {};
