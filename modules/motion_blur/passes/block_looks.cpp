@@ -204,7 +204,7 @@ graph::ImageHandle BlockLooks::addResolve(
                 data.lists = {
                     builder.read(blocks.lists.blocks, Access::StorageRead),
                     builder.read(blocks.lists.arguments, Access::IndirectRead)};
-                data.target = builder.write(target, Access::StorageWrite);
+                data.target = builder.write(target, Access::StorageWriteDisjoint);
             },
             [this, color = raster.color, params](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;

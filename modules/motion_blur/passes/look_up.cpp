@@ -380,7 +380,7 @@ void LookUp::addResolve(
                 data.listed = {
                     builder.write(outputs.listed.pixels, Access::StorageWrite),
                     builder.write(outputs.listed.arguments, Access::StorageWrite)};
-            data.picture = builder.write(outputs.picture, Access::StorageWrite);
+            data.picture = builder.write(outputs.picture, Access::StorageWriteDisjoint);
         },
         [this, areCrowded, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
