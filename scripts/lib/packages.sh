@@ -26,6 +26,8 @@ check_packages=(
 # lavapipe traces rays from this version of Mesa on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1
+# What Mesa's drivers for GPUs run on where there is no GPU. It comes with Mesa, where it is packaged.
+shim_package=mesa-drm-shim
 
 apt_lists_are_fresh=no
 
@@ -119,6 +121,19 @@ install_mesa() {
         "methods that trace rays will need a GPU"
 }
 
+# Installs what tests/gpu_static need beside Mesa, where apt has it.
+install_shim() {
+    local version
+    version=$(candidate_version "$shim_package")
+    if [[ -z $version || $version == "(none)" ]]; then
+        say "apt has no $shim_package here; what GPUs would run is not tested"
+        return
+    fi
+    say "installing $shim_package"
+    refresh_apt_lists
+    install_packages "$shim_package"
+}
+
 # What to do on a distribution whose package names we do not know.
 go_on_with_tools_found() {
     local tool absent=()
@@ -141,7 +156,7 @@ go_on_with_tools_found() {
 # well; with "with-checks" as $2, of those for the checks where the distribution has them.
 # Without anything missing this reads the package database and nothing else.
 ensure_packages() {
-    local wanted=("${build_packages[@]}") missing old_mesa=no
+    local wanted=("${build_packages[@]}") missing old_mesa=no shim=no
     local ID='' VERSION_ID='' VERSION_CODENAME='' PRETTY_NAME=''
     [[ ${1:-} != with-tests ]] || wanted+=("${test_packages[@]}")
     if [[ -r /etc/os-release ]]; then
@@ -165,7 +180,10 @@ ensure_packages() {
     if ! mesa_is_new_enough "$(installed_version "$mesa_package")"; then
         old_mesa=yes
     fi
-    if ((${#missing[@]} == 0)) && [[ $old_mesa == no ]]; then
+    if [[ ${1:-} == with-tests && -n $(missing_packages "$shim_package") ]]; then
+        shim=yes
+    fi
+    if ((${#missing[@]} == 0)) && [[ $old_mesa == no && $shim == no ]]; then
         return
     fi
     if ! can_be_root; then
@@ -173,8 +191,9 @@ ensure_packages() {
             die "packages are missing, and there is no sudo to install them with; as root, run:" \
                 "apt-get install --no-install-recommends ${missing[*]}"
         fi
-        say "warning: there is no Mesa $mesa_minimum or newer, and no sudo to install it with;" \
-            "methods that trace rays will need a GPU"
+        [[ $old_mesa == no ]] ||
+            say "warning: there is no Mesa $mesa_minimum or newer, and no sudo to install it with;" \
+                "methods that trace rays will need a GPU"
         return
     fi
     if ((${#missing[@]})); then
@@ -185,4 +204,5 @@ ensure_packages() {
     if [[ $old_mesa == yes ]]; then
         install_mesa "$VERSION_CODENAME"
     fi
+    [[ $shim == no ]] || install_shim
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What stands below the layer, and the functions that it stands in for.
+#pragma once
+
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan_core.h>
+
+#include <span>
+
+namespace shutter::gpu_static {
+
+// Functions of the device that the layer calls.
+#define SHUTTER_NEXT_OF_DEVICE(X)                                                                  \
+    X(CreateComputePipelines)                                                                      \
+    X(CreateGraphicsPipelines)                                                                     \
+    X(CreateRayTracingPipelinesKHR)                                                                \
+    X(CreateShaderModule)                                                                          \
+    X(GetPipelineExecutablePropertiesKHR)                                                          \
+    X(GetPipelineExecutableStatisticsKHR)                                                          \
+    X(SetDebugUtilsObjectNameEXT)
+
+#define SHUTTER_FIELD(name) PFN_vk##name name = nullptr;
+
+/// The program opens one instance and one device at a time.
+struct Next {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+    PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
+    SHUTTER_NEXT_OF_DEVICE(SHUTTER_FIELD)
+};
+
+#undef SHUTTER_FIELD
+
+[[nodiscard]] const Next& next();
+
+/// A function of this layer.
+struct Entry {
+    const char* name;
+    PFN_vkVoidFunction function;
+};
+
+#define SHUTTER_ENTRY(name, function)                                                              \
+    Entry {                                                                                        \
+        "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function))      \
+    }
+
+/// Pipelines, of which the compiler's statistics are written down.
+[[nodiscard]] std::span<const Entry> listPipelines();
+
+/// Submissions, which have ended at once, and all that waits for them.
+[[nodiscard]] std::span<const Entry> listSubmissions();
+
+} // namespace shutter::gpu_static
