@@ -18,7 +18,7 @@ using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
 
-class MaskLaw : public test::GpuTest {};
+class MaskLaw : public test::RayTest {};
 
 constexpr double kHalfPx = 14.0; // the mover covers 34 <= x < 62 and 18 <= y < 46
 
