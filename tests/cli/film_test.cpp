@@ -39,14 +39,14 @@ class Film : public Cli {
     void SetUp() override {
         requireDevice();
         // No camera: one that each part made to fit its own first frame would differ.
-        writeFile("drifting.gltf", kDriftingScene);
+        writeFile("glass.gltf", kGlassScene);
     }
 
     [[nodiscard]] static Arguments
     draw(const std::string& command, const std::string& out, const Arguments& more = {}) {
         Arguments arguments = {
             command,
-            "drifting.gltf",
+            "glass.gltf",
             "--size",
             "64x36",
             "--method",
@@ -109,6 +109,11 @@ TEST_F(Film, ByPartsIsTheFilmOfOneProcess) {
             << frame;
     }
     EXPECT_GT(frames.size(), 1u) << "it moves";
+    Arguments one = draw("render", "one.png", {"--explain"});
+    one[9] = "9:9";
+    const std::string said = expectSuccess(one).out;
+    for (const char* work : {"blended instants", "particles live in its exposure"})
+        EXPECT_NE(said.find(work), std::string::npos) << said;
     // Nothing of the parts is left, and both commands know what is complete.
     EXPECT_FALSE(fs::exists(path("parts.mp4.parts")));
     for (const std::string& file : listFiles())
@@ -252,7 +257,7 @@ TEST_F(Film, ContradictionsAreRefusedBeforeAnythingIsWritten) {
     refuse({"--wait"}, {"--wait", "--slurm"});
     refuse({"--jobs", "0"}, {"--jobs"});
     expectRefusal(draw("film", "f.exr"), 2, {"%04d"});
-    expectRefusal({"film", "drifting.gltf", "--out", "f.exr"}, 2, {"--frames or --flythrough"});
+    expectRefusal({"film", "glass.gltf", "--out", "f.exr"}, 2, {"--frames or --flythrough"});
     refuse({"--slurm", "--jobs", "2"}, {"--jobs", "--slurm"});
     refuse({"--parts", "x"}, {"--parts x"});
     refuse({"--part", "1/2"}, {"--part", "shutter render"});
