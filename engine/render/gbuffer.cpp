@@ -31,15 +31,17 @@ uint32_t blendConstantOf(Variant variant) {
     return variant == Variant::Premultiplied ? 2 : 0;
 }
 
-gpu::GraphicsPipelineDesc
-describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) {
+gpu::GraphicsPipelineDesc describeGeometry(
+    const gpu_scene::GpuScene& scene, Variant variant, bool moves, bool mayHaveShadows
+) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
     desc.fragmentSpirv = render_gbuffer_frag;
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
-    desc.specialization = {variant == Variant::Masked, blendConstantOf(variant), moves};
+    desc.specialization = {
+        variant == Variant::Masked, blendConstantOf(variant), moves, mayHaveShadows};
     desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthWrite = blendConstantOf(variant) == 0;
@@ -51,7 +53,7 @@ describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) 
 }
 
 gpu::GraphicsPipelineDesc describeSky(const gpu_scene::GpuScene& scene) {
-    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false);
+    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false, false);
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
     desc.fragmentSpirv = render_sky_frag;
@@ -59,6 +61,14 @@ gpu::GraphicsPipelineDesc describeSky(const gpu_scene::GpuScene& scene) {
     desc.depthCompare = VK_COMPARE_OP_EQUAL; // where the cleared, infinite depth still stands
     desc.depthWrite = false;
     return desc;
+}
+
+Variant variantOf(const extract::SceneLayout::GeometryInfo& info) {
+    if (info.alphaMode == scene::AlphaMode::Mask)
+        return Variant::Masked;
+    if (info.alphaMode != scene::AlphaMode::Blend)
+        return Variant::Opaque;
+    return info.premultiplies ? Variant::Premultiplied : Variant::Blended;
 }
 
 /// Records the draws of one frame.
@@ -79,8 +89,9 @@ class Recorder {
             mCommands.bind(pipeline, {}, nullptr, 0, mScene.textureSet());
     }
 
-    void draw(const GBufferPass::Pipelines& pipelines, const extract::DrawItem& item) {
+    void draw(const GBufferPass::Variants& variants, const extract::DrawItem& item) {
         const extract::SceneLayout::GeometryInfo& info = mScene.layout().geometries[item.geometry];
+        const GBufferPass::Pipelines& pipelines = *variants[size_t(variantOf(info))];
         const bool moves = mFrame.entities[item.entity].motion != shader::kNoMotion;
         bind(moves ? pipelines.moving : pipelines.still);
         push(item.entity, item.geometryRow);
@@ -133,15 +144,25 @@ class Recorder {
 } // namespace
 
 GBufferPass::Pipelines::Pipelines(
-    gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant
+    gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant, bool mayHaveShadows
 )
-    : still(device, describeGeometry(scene, variant, false)),
-      moving(device, describeGeometry(scene, variant, true)) {}
+    : still(device, describeGeometry(scene, variant, false, mayHaveShadows)),
+      moving(device, describeGeometry(scene, variant, true, mayHaveShadows)) {}
 
 GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
-    : mOpaque(device, scene, Variant::Opaque), mMasked(device, scene, Variant::Masked),
-      mBlended(device, scene, Variant::Blended),
-      mPremultiplied(device, scene, Variant::Premultiplied), mSky(device, describeSky(scene)) {}
+    : mDevice(device), mScene(scene), mSky(device, describeSky(scene)) {}
+
+const GBufferPass::Variants& GBufferPass::findVariants(bool mayHaveShadows) {
+    if (mVariants[mayHaveShadows])
+        return *mVariants[mayHaveShadows];
+    Variants& variants = mVariants[mayHaveShadows].emplace();
+    for (const extract::SceneLayout::GeometryInfo& info : mScene.layout().geometries) {
+        const Variant variant = variantOf(info);
+        if (auto& pipelines = variants[size_t(variant)]; !pipelines)
+            pipelines.emplace(mDevice, mScene, variant, mayHaveShadows);
+    }
+    return variants;
+}
 
 GBuffer GBufferPass::declare(
     graph::Graph& graph,
@@ -150,7 +171,8 @@ GBuffer GBufferPass::declare(
     const gpu_scene::GpuScene& scene,
     std::span<const graph::BufferHandle> reads,
     VkDeviceAddress frameConstants
-) const {
+) {
+    const Variants& variants = findVariants((frame.constants.flags & shader::kFrameShadows) != 0);
     const auto width = static_cast<uint32_t>(frame.constants.sizePx.x);
     const auto height = static_cast<uint32_t>(frame.constants.sizePx.y);
     GBuffer targets;
@@ -177,23 +199,21 @@ GBuffer GBufferPass::declare(
                 builder.colorTarget(targets.entityId, graph::ClearColor::uints(shader::kNoEntity));
             (void)builder.depthTarget(depth, 0.0f);
         },
-        [this, &frame, &scene, frameConstants](const Data&, graph::PassContext& context) {
+        [this, &variants, &frame, &scene, frameConstants](
+            const Data&, graph::PassContext& context
+        ) {
             Recorder recorder(context.frame, frame, scene, frameConstants);
             vkCmdBindIndexBuffer(context.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
             for (const bool masked : {false, true})
                 frame.opaque.forEach([&](const extract::DrawItem& item) {
                     if ((item.alphaMode == scene::AlphaMode::Mask) == masked)
-                        recorder.draw(masked ? mMasked : mOpaque, item);
+                        recorder.draw(variants, item);
                 });
             recorder.bind(mSky);
             recorder.drawScreen();
             frame.blended.forEach([&](const extract::DrawItem& item) {
                 if (!frame.isInLayer(item.entity))
-                    recorder.draw(
-                        scene.layout().geometries[item.geometry].premultiplies ? mPremultiplied
-                                                                               : mBlended,
-                        item
-                    );
+                    recorder.draw(variants, item);
             });
         }
     );

@@ -6,7 +6,9 @@
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,15 +31,25 @@ class GBufferPass {
 
     /// The pipelines of one variant.
     struct Pipelines {
-        Pipelines(gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant);
+        /// \param mayHaveShadows false: for frames in which no light casts any
+        Pipelines(
+            gpu::Device& device,
+            const gpu_scene::GpuScene& scene,
+            Variant variant,
+            bool mayHaveShadows
+        );
 
         gpu::Pipeline still;  ///< of entities that have no motion: works out none and writes 0
         gpu::Pipeline moving; ///< of the others
     };
 
+    /// By Variant: of those that the scene has surfaces of.
+    using Variants = std::array<std::optional<Pipelines>, 4>;
+
     GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);
 
-    /// Declares the pass. `frame` and `scene` must live until it has been recorded.
+    /// Declares the pass; the first frame with shadows, and the first without, makes pipelines.
+    /// `frame` and `scene` must live until it has been recorded.
     /// \param name of the pass
     /// \param reads what its shaders reach by addresses; invalid ones are passed over
     [[nodiscard]] GBuffer declare(
@@ -47,13 +59,14 @@ class GBufferPass {
         const gpu_scene::GpuScene& scene,
         std::span<const graph::BufferHandle> reads,
         VkDeviceAddress frameConstants
-    ) const;
+    );
 
   private:
-    Pipelines mOpaque;
-    Pipelines mMasked;
-    Pipelines mBlended;
-    Pipelines mPremultiplied;
+    const Variants& findVariants(bool mayHaveShadows);
+
+    gpu::Device& mDevice;
+    const gpu_scene::GpuScene& mScene;
+    std::array<std::optional<Variants>, 2> mVariants; ///< by whether lights may cast shadows
     gpu::Pipeline mSky;
 };
 

@@ -46,7 +46,7 @@ OtherRasterView OtherRaster::declare(
     graph::Graph& graph,
     const char* name,
     const gpu_scene::GpuScene& scene,
-    const GBufferPass& pass,
+    GBufferPass& pass,
     const ShadowPipelines* shadows
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);

@@ -50,7 +50,7 @@ class OtherRaster {
         graph::Graph& graph,
         const char* name,
         const gpu_scene::GpuScene& scene,
-        const GBufferPass& pass,
+        GBufferPass& pass,
         const ShadowPipelines* shadows
     );
 

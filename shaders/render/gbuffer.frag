@@ -2,6 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SHUTTER_UNIFORM_MATERIAL
+// Code of shadows takes three times the registers of the rest, whether or not it runs.
+layout(constant_id = 3) const bool kMayHaveShadows = true; // false: no light of the frame casts any
+#define SHUTTER_MAY_HAVE_SHADOWS kMayHaveShadows
 #include "render/lighting.glsl"
 #include "render/motion.glsl"
 #include "render/fragment_point.glsl"

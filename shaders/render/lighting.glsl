@@ -2,6 +2,11 @@
 #ifndef SHUTTER_LIGHTING_GLSL
 #define SHUTTER_LIGHTING_GLSL
 
+/// Whoever knows that no light casts shadows says so by a constant, before this.
+#ifndef SHUTTER_MAY_HAVE_SHADOWS
+#define SHUTTER_MAY_HAVE_SHADOWS true
+#endif
+
 #include "render/brdf.glsl"
 #include "render/environment.glsl"
 #include "render/shadow_lookup.glsl"
@@ -77,7 +82,7 @@ vec3 shadeSurface(
     vec3 color =
         surface.occlusion *
         reflectEnvironment(frame, diffuse, mirrored, roughness, surface.normal, v);
-    bool castsShadows = (frame.value.flags & kFrameShadows) != 0u;
+    bool castsShadows = SHUTTER_MAY_HAVE_SHADOWS && (frame.value.flags & kFrameShadows) != 0u;
     for (uint i = 0u; i < lights.count; ++i) {
         vec3 toLight;
         vec3 irradiance;
