@@ -178,7 +178,9 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroups{
         VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
     subgroups.requiredSubgroupSize = desc.subgroupSize;
-    if (device.canRequireSubgroupSize(desc.subgroupSize))
+    // Where there are smaller ones, drivers choose by what a shader takes.
+    if (device.canRequireSubgroupSize(desc.subgroupSize) &&
+        !device.canRequireSubgroupSize(desc.subgroupSize / 2))
         info.stage.pNext = &subgroups;
     info.layout = mObjects.layout;
     require(

@@ -27,8 +27,8 @@ struct ComputePipelineDesc {
     std::span<const uint32_t> spirv;
     PipelineInterface interface;
     std::vector<uint32_t> specialization; ///< constant_id 0, 1, 2, ...
-    /// Invocations of a subgroup, a power of two; 0, or where the device cannot: the driver's
-    /// choice.
+    /// Invocations of a subgroup, a power of two, if devices have none of fewer; 0, or where they
+    /// do: the driver's choice.
     uint32_t subgroupSize = 0;
 };
 
