@@ -138,7 +138,9 @@ class Machine:
 def read_pipeline(text):
     """The programs of a file that the layer wrote."""
     rows = [line.split("\t") for line in text.splitlines()]
-    names = {key: values[0] for key, *values in rows if key in ("name", "constants")}
+    # A run that ended in between left a file without a name.
+    names = {"name": "(unnamed)", "constants": ""}
+    names |= {key: values[0] for key, *values in rows if key in names}
     programs = []
     for key, *values in rows:
         if key == "program":

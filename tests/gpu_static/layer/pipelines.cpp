@@ -192,6 +192,8 @@ VkResult createEach(std::span<const Info> infos, VkPipeline* pipelines, Create c
         if (made == VK_SUCCESS)
             write(file, identity, pipelines[i]);
         std::fclose(file);
+        if (made != VK_SUCCESS)
+            continue;
         const std::lock_guard lock(sMutex);
         sNamelessFiles[pipelines[i]] = path;
     }
