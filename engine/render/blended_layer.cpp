@@ -76,6 +76,9 @@ class BlendedLayerPass::Recorder {
         viewport.height = float(pictureSize.y);
         viewport.maxDepth = 1.0f;
         vkCmdSetViewport(commands, 0, 1, &viewport);
+        // Images are larger than the rectangle, and what is looked up is not.
+        const VkRect2D scissor{{0, 0}, {mLayer.sizePx.x, mLayer.sizePx.y}};
+        vkCmdSetScissor(commands, 0, 1, &scissor);
         const shader::InstantSurfaces surfaces = mLayer.surfaces();
         bool isFirst = true;
         for (uint32_t i = 0; i < surfaces.instantCount; ++i) {
@@ -171,7 +174,8 @@ BlendedPart BlendedLayerPass::declare(
         upload(layer, context.slot);
     graph::Graph& graph = context.graph;
     BlendedPart targets;
-    const graph::TransientImageDesc size{layer.sizePx.x, layer.sizePx.y, kLayerFormat};
+    const math::uvec2 allocated = shader::sizeInSteps(layer.sizePx);
+    const graph::TransientImageDesc size{allocated.x, allocated.y, kLayerFormat};
     targets.color = graph.createImage("blended color", size);
     targets.opacity = graph.createImage("blended opacity", size);
     const graph::BufferHandle shapes = context.shapes.buffer;

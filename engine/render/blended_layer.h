@@ -17,7 +17,7 @@
 namespace shutter::render {
 
 /// One part of the exposure: sums over its instants, each with the weight of an instant of the
-/// whole exposure. Images as large as BlendedLayer::sizePx.
+/// whole exposure. Images that begin with BlendedLayer::sizePx.
 struct BlendedPart {
     graph::ImageHandle color;   ///< RGBA16F: premultiplied
     graph::ImageHandle opacity; ///< RGBA16F: in red

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `resolved` leaves of a rectangle of the picture for whoever draws blended surfaces over it:
+// What `resolved` leaves of a rectangle of the picture for blended surfaces and particles over it:
 // the depth that each pixel saw at some instants of the exposure, and the colours of its parts. A
 // buffer: an InstantSurfaces, then words of 32 bits.
 #ifndef SHUTTER_INSTANT_SURFACES_GLSL
@@ -32,6 +32,12 @@ SHUTTER_INLINE uint takenInstant(uint index, uint count, uint all) {
 /// Part of the exposure that an instant belongs to.
 SHUTTER_INLINE uint surfacePartOf(InstantSurfaces head, uint instant) {
     return instant * head.partCount / head.instantCount;
+}
+
+/// Size of what is allocated for a rectangle: in steps, so that one that moves finds again what was
+/// made for it in the frames before.
+SHUTTER_INLINE uvec2 sizeInSteps(uvec2 sizePx) {
+    return (sizePx + 63u) / 64u * 64u;
 }
 
 SHUTTER_INLINE uint surfacePixels(InstantSurfaces head) { return head.sizePx.x * head.sizePx.y; }

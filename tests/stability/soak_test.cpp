@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Frames after which the same is done again. At a cycle's end everything is set as at its start,
-/// so that what is held in memory then may be compared.
+/// so that what is held in memory then may be compared (addPauses()).
 constexpr uint32_t kCycleFrames = 250;
 constexpr double kFrameSeconds = 1.0 / 30.0;
 constexpr uint32_t kKeptPictures = 20;
@@ -83,8 +83,10 @@ void addPlay(Cycle& cycle) {
         cycle[frame].push_back(tap("c"));
 }
 
-/// Photo mode, a pause and single steps, and then everything as at the start.
-void addPauses(Cycle& cycle) {
+/// Photo mode, a pause and single steps, and then everything as at the start, but sharp: what glass
+/// and particles are drawn in depends on where they are. A window that changes its size gives back
+/// what frames before were drawn in.
+void addPauses(Cycle& cycle, const game::PictureSize& size) {
     cycle[200].push_back(tap("t"));
     cycle[204].push_back(tap("p")); // leaves photo mode and the pause that comes with it
     cycle[208].push_back(tap("p"));
@@ -95,6 +97,10 @@ void addPauses(Cycle& cycle) {
     // As many as there are speeds: the last of them is the usual one.
     for (uint32_t i = 1; i <= 5; ++i)
         cycle[kReturn + i].push_back(tap("slash"));
+    cycle[kReturn + 8].push_back(tap("1"));
+    cycle[kReturn + 10].push_back(makeResize(size.width + 1, size.height));
+    cycle[kReturn + 13].push_back(makeResize(size.width, size.height));
+    cycle[2].push_back(tap("f9"));
 }
 
 /// The frames whose pictures are kept, counted from 0: at no two the same place of the cycle.
@@ -125,7 +131,7 @@ makeSoakScript(uint32_t frameCount, const game::PictureSize& size, const fs::pat
     addToggles(cycle);
     addSizes(cycle, size);
     addPlay(cycle);
-    addPauses(cycle);
+    addPauses(cycle, size);
     const std::vector<uint32_t> kept = chooseFrames(frameCount);
     ordered_json events = ordered_json::array();
     const auto add = [&](uint32_t frame, ordered_json event) {

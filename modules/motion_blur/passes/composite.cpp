@@ -50,9 +50,10 @@ graph::ImageHandle Composite::add(
     };
 
     graph::ImageHandle sum;
+    const glm::uvec2 allocated = shader::sizeInSteps(rectangle.sizePx);
     if (rectangle.partCount > 1)
         sum = graph.createImage(
-            "composite sum", {rectangle.sizePx.x, rectangle.sizePx.y, VK_FORMAT_R16G16B16A16_SFLOAT}
+            "composite sum", {allocated.x, allocated.y, VK_FORMAT_R16G16B16A16_SFLOAT}
         );
     shader::CompositeParams params{};
     params.originPx = rectangle.originPx;

@@ -15,14 +15,22 @@ using graph::Access;
 gpu::ComputePipelineDesc describeSurfaces() {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.push_back(kBuffer);
-    return describePass("instant surfaces", motion_blur_instant_surfaces_comp, std::move(bindings));
+    gpu::ComputePipelineDesc desc =
+        describePass("instant surfaces", motion_blur_instant_surfaces_comp, std::move(bindings));
+    desc.subgroupSize = kDivergingSubgroup;
+    return desc;
 }
 
-/// A buffer whose head is written.
-graph::BufferHandle addHead(graph::Graph& graph, const shader::InstantSurfaces& wanted) {
-    const graph::BufferHandle buffer = graph.createBuffer(
-        "instant surfaces", {surfaceBytes(wanted), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
-    );
+/// A buffer whose head is written. \param mostBytes that a buffer may have
+graph::BufferHandle
+addHead(graph::Graph& graph, const shader::InstantSurfaces& wanted, VkDeviceSize mostBytes) {
+    shader::InstantSurfaces allocated = wanted;
+    allocated.sizePx = shader::sizeInSteps(wanted.sizePx);
+    VkDeviceSize bytes = surfaceBytes(allocated);
+    if (bytes > mostBytes)
+        bytes = surfaceBytes(wanted);
+    const graph::BufferHandle buffer =
+        graph.createBuffer("instant surfaces", {bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
 
     struct Data {
         graph::BufferHandle buffer;
@@ -69,7 +77,8 @@ void InstantSurfacesPass::addOne(
         graph::BufferHandle surfaces;
     };
 
-    const graph::BufferHandle begun = addHead(graph, wanted);
+    const graph::BufferHandle begun =
+        addHead(graph, wanted, mDevice.limits().maxStorageBufferRange);
     const Data& pass = graph.addPass<Data>(
         "instant surfaces",
         graph::PassKind::Compute,
