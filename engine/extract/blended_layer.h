@@ -57,7 +57,7 @@ struct BlendedLayer {
 };
 
 struct LayerLimits {
-    uint32_t instants = 15; ///< most that the layer is drawn at; what is looked up has as many
+    uint32_t instants = 15; ///< most that are drawn, and looked up
     /// Above 1: so many at least, each with its sample elsewhere in the pixel, for a picture whose
     /// edges are anti-aliased.
     uint32_t leastInstants = 1;

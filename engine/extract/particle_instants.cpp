@@ -7,13 +7,25 @@ namespace shutter::extract {
 
 namespace {
 
-/// More instants change no picture of particles by a step of eight bits.
+/// Beyond these, what hides particles moves little from one instant to the next.
 constexpr uint32_t kMaxParticleInstants = 16;
 
 /// Grows `all` around what `one` and `within` share.
 void addShared(SweptBox& all, const SweptBox& one, const SweptBox& within) {
     all.least = glm::min(all.least, glm::max(one.least, within.least));
     all.most = glm::max(all.most, glm::min(one.most, within.most));
+}
+
+/// The part of `seen` that opaque movers come over.
+SweptBox findMet(const SweptScene& scene, const SweptBox& seen) {
+    const auto movers = scene.sweepOpaqueMovers();
+    if (!movers)
+        return seen;
+    SweptBox met;
+    for (const SweptBox& mover : *movers)
+        if (overlap(mover, seen))
+            addShared(met, mover, seen);
+    return met;
 }
 
 } // namespace
@@ -32,14 +44,7 @@ std::optional<shader::InstantSurfaces> planParticleInstants(
     // The tables of particles have no depth along the view of an orthographic camera that moves.
     if (scene.cameraMoves && !scene.isPerspective)
         return std::nullopt;
-    SweptBox box = seen;
-    const auto movers = scene.sweepOpaqueMovers();
-    if (movers && !scene.cameraMoves) {
-        box = {};
-        for (const SweptBox& mover : *movers)
-            if (overlap(mover, seen))
-                addShared(box, mover, seen);
-    }
+    const SweptBox box = scene.cameraMoves ? seen : findMet(scene, seen);
     if (!(box.least.x < box.most.x && box.least.y < box.most.y))
         return std::nullopt;
     shader::InstantSurfaces wanted{};
@@ -48,6 +53,9 @@ std::optional<shader::InstantSurfaces> planParticleInstants(
     wanted.instantCount = std::min(limits.instants, kMaxParticleInstants);
     wanted.partCount = particles.hides ? shader::kMostSurfaceParts : 1;
     wanted.instantCount = fitInstants(wanted, limits.surfaceBytes);
+    // Parts of as many instants each: particles are drawn in equal parts.
+    if (wanted.instantCount > wanted.partCount)
+        wanted.instantCount -= wanted.instantCount % wanted.partCount;
     wanted.partCount = std::min(wanted.partCount, wanted.instantCount);
     if (wanted.instantCount == 0)
         return std::nullopt;

@@ -292,25 +292,45 @@ class Extraction {
         const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
         const math::vec2 alive =
             shader::particleLifetime(row, emitter, mTables.rasterTime, 0.0f, 1.0f);
-        const auto first = see(row, alive.x);
-        const auto last = see(row, alive.y);
-        if (!first || !last || !(alive.x < alive.y))
+        if (!(alive.x < alive.y))
             return std::nullopt;
-        const float radius = std::max(first->z, last->z);
         const math::vec2 half(float(mRequest.width) / 2.0f, float(mRequest.height) / 2.0f);
-        const math::vec2 nearest =
-            glm::min(glm::abs(math::vec2(*first)), glm::abs(math::vec2(*last)));
-        if (!(radius > 0.0f) || glm::any(glm::greaterThan(nearest, half + 1.5f * radius)))
+        const std::array seen{
+            see(row, alive.x), see(row, 0.5f * (alive.x + alive.y)), see(row, alive.y)};
+        if (!seen[0] || !seen[1] || !seen[2]) {
+            // What crosses the camera's plane may be anywhere before that.
+            if (seen[0] || seen[1] || seen[2])
+                addToBox(-half, half);
             return std::nullopt;
-        const float way = glm::distance(math::vec2(*first), math::vec2(*last));
-        // What bends goes no farther aside than half of that.
-        const math::vec2 aside(1.5f * radius + 0.5f * way);
-        for (const math::vec3& end : {*first, *last}) {
-            const math::vec2 place = math::vec2(end) + half;
-            mTables.leastPx = glm::min(mTables.leastPx, math::dvec2(place - aside));
-            mTables.mostPx = glm::max(mTables.mostPx, math::dvec2(place + aside));
         }
+        math::vec2 least = math::vec2(*seen[0]);
+        math::vec2 most = least;
+        float radius = 0.0f;
+        for (const auto& at : seen) {
+            least = glm::min(least, math::vec2(*at));
+            most = glm::max(most, math::vec2(*at));
+            radius = std::max(radius, at->z);
+        }
+        const float way = glm::distance(math::vec2(*seen[0]), math::vec2(*seen[1])) +
+                          glm::distance(math::vec2(*seen[1]), math::vec2(*seen[2]));
+        // Corners of pictures, and what the way bends aside between the three places.
+        const math::vec2 aside(
+            1.5f * std::max(radius, shader::kLeastParticleRadiusPx) + 0.5f * way
+        );
+        least -= aside;
+        most += aside;
+        if (!(radius > 0.0f) || glm::any(glm::greaterThan(least, half)) ||
+            glm::any(glm::lessThan(most, -half)))
+            return std::nullopt;
+        addToBox(least, most);
         return math::vec2(way, radius);
+    }
+
+    /// \param least, most pixels from the picture's centre
+    void addToBox(const math::vec2& least, const math::vec2& most) {
+        const math::dvec2 half(mRequest.width / 2.0, mRequest.height / 2.0);
+        mTables.leastPx = glm::min(mTables.leastPx, math::dvec2(least) + half);
+        mTables.mostPx = glm::max(mTables.mostPx, math::dvec2(most) + half);
     }
 
     /// As many parts as the fastest picture needs instants, which are a quarter of its size apart.

@@ -27,7 +27,7 @@ VkDeviceSize alignPart(VkDeviceSize bytes) {
 }
 
 /// In how many parts of the exposure the particles are drawn: as many as their textures or what
-/// lies behind them needs. Each lies in one of those behind.
+/// lies behind them needs, of which there are four, one or, of few instants, some in between.
 uint32_t countDraws(const extract::ParticleTables& tables, const ParticleTargets& targets) {
     const uint32_t behind = targets.instants ? targets.instants->rectangle.partCount : 1;
     return tables.parts <= behind ? behind : behind > 1 ? shader::kMaxParticleParts : tables.parts;
@@ -102,7 +102,7 @@ const gpu::Pipeline& ParticlePass::findComposite(const CompositeKey& key) {
     desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     desc.interface.pushConstantBytes = sizeof(uint32_t);
     desc.colorFormats = {key.format};
-    desc.specialization = {key.readsInstants ? 1u : 0u};
+    desc.specialization = {key.readsParts ? 1u : 0u};
     return mComposites.emplace(key, gpu::Pipeline(mDevice, desc)).first->second;
 }
 
@@ -160,7 +160,8 @@ ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageH
 
     const ParticleTargets& targets = draws.targets;
     const graph::TransientImageDesc desc = draws.graph.describeImage(targets.color);
-    const gpu::Pipeline& pipeline = findComposite({desc.format, targets.instants.has_value()});
+    const bool readsParts = targets.instants && targets.instants->rectangle.partCount > 1;
+    const gpu::Pipeline& pipeline = findComposite({desc.format, readsParts});
     const auto target = draws.graph.createImage("color with particles", desc);
     return draws.graph
         .addPass<Data>(
@@ -172,7 +173,7 @@ ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageH
                     data.parts[i] = i < layers.size()
                                         ? builder.read(layers[i], graph::Access::SampledFragment)
                                         : data.parts[0];
-                if (targets.instants)
+                if (readsParts)
                     data.instants =
                         builder.read(targets.instants->words, graph::Access::ShaderRead);
                 data.target =

@@ -77,7 +77,7 @@ class ParticlePass {
 
     struct CompositeKey {
         VkFormat format; ///< of the target
-        bool readsInstants;
+        bool readsParts; ///< what lies behind differs between the parts of the exposure
 
         auto operator<=>(const CompositeKey&) const = default;
     };

@@ -29,16 +29,26 @@ float showBefore(float surface, float depth, float softMetres) {
 }
 
 /// The same at the instants of a part of the light, in which its depth goes from x to y: their mean.
-float showAtInstants(uvec2 at, vec2 depths, vec2 light, float softMetres) {
+/// \param surface behind the pixel in the raster, metres along the view
+float showAtInstants(uvec2 at, float surface, vec2 depths, vec2 light, float softMetres) {
     float count = float(uHead.instantCount);
-    uint first = min(uint(light.x * count), uHead.instantCount - 1u);
-    uint end = clamp(uint(ceil(light.y * count)), first + 1u, uHead.instantCount);
+    // Those whose middles lie in the part; of a shorter part, the one that holds its own.
+    uint first = uint(light.x * count + 0.5f);
+    uint end = min(uint(light.y * count + 0.5f), uHead.instantCount);
+    if (first >= end) {
+        first = min(uint(0.5f * (light.x + light.y) * count), uHead.instantCount - 1u);
+        end = first + 1u;
+    }
+    float rounded = unpackHalf2x16(packHalf2x16(vec2(surface))).x;
     float sum = 0.0f;
     for (uint i = first; i < end; ++i) {
         vec2 pair = unpackHalf2x16(uWords[surfaceDepthWord(uHead, i, at)]);
+        float hiding = (i & 1u) == 0u ? pair.x : pair.y;
+        // What stands still hides as it does outside the rectangle.
+        if (hiding == rounded) hiding = surface;
         float passed = (float(i) + 0.5f) / count - light.x;
         float depth = mix(depths.x, depths.y, saturate(passed / max(light.y - light.x, 1.0e-6f)));
-        sum += showBefore((i & 1u) == 0u ? pair.x : pair.y, depth, softMetres);
+        sum += showBefore(hiding, depth, softMetres);
     }
     return sum / float(end - first);
 }
@@ -53,7 +63,7 @@ void main() {
     if (inTexture != kNoParticleTexture) {
         vec4 texel = sampleSceneTexture(inTexture, inTextureUv, inShape.x);
         float shown = readsInstants
-                          ? showAtInstants(at, inPoints[0].ww, inLight, inShape.y)
+                          ? showAtInstants(at, surface, inPoints[0].ww, inLight, inShape.y)
                           : showBefore(surface, inPoints[0].w, inShape.y);
         sum = inColors[0] * vec4(texel.rgb * texel.a, texel.a) * shown;
     } else {
@@ -69,7 +79,7 @@ void main() {
                 vec2 span = streakSpan(point, way, radius);
                 vec2 depths = mix(inPoints[i].ww, inPoints[i + 1u].ww, span);
                 vec2 light = mix(inLight.xx, inLight.yy, (float(i) + span) / float(segments));
-                shown = showAtInstants(at, depths, light, inShape.y);
+                shown = showAtInstants(at, surface, depths, light, inShape.y);
             } else {
                 float depth = mix(inPoints[i].w, inPoints[i + 1u].w, covered.y);
                 shown = showBefore(surface, depth, inShape.y);

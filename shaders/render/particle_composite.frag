@@ -26,7 +26,7 @@ layout(binding = 9, scalar) readonly buffer Surfaces {
 
 #include "common/surface_parts.glsl"
 
-layout(constant_id = 0) const bool kReadsInstants = false; // what lies behind differs between the parts
+layout(constant_id = 0) const bool kReadsParts = false; // what lies behind differs between the parts
 
 layout(location = 0) out vec4 outColor;
 
@@ -46,7 +46,7 @@ vec4 fetchPart(uint part, ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     uvec2 at = uvec2(pixel) - uHead.originPx;
-    bool readsInstants = kReadsInstants && all(lessThan(at, uHead.sizePx));
+    bool readsParts = kReadsParts && all(lessThan(at, uHead.sizePx));
     vec4 color = texelFetch(uColor, pixel, 0);
     vec4 sum = vec4(0.0f);
     vec3 behind = vec3(0.0f); // of the parts' own, as much as is seen of it
@@ -54,14 +54,14 @@ void main() {
     for (uint part = 0u; part < partCount; ++part) {
         vec4 drawn = fetchPart(part, pixel);
         sum += drawn;
-        if (!readsInstants) continue;
+        if (!readsParts) continue;
         vec3 own = behindPart(part * uHead.partCount / partCount, at, color.rgb);
         behind += drawn.a * own;
         known += own;
     }
     vec4 mean = sum / float(partCount);
     // What the picture knows more than the parts.
-    if (readsInstants) behind = (behind + mean.a * (float(partCount) * color.rgb - known)) / float(partCount);
+    if (readsParts) behind = (behind + mean.a * (float(partCount) * color.rgb - known)) / float(partCount);
     else behind = mean.a * color.rgb;
     // Where no particle is, not a bit changes.
     outColor = mean == vec4(0.0f, 0.0f, 0.0f, 1.0f)

@@ -335,6 +335,8 @@ TEST_F(ParticleLaw, AMoverHidesAndShowsThemAtTheInstantsAtWhichItIsThere) {
         PuffScene scene(emitter);
         scene.addSweep(2.4);
         EXPECT_GT(measurePuffs(device(), scene, "resolved"), least);
+        EXPECT_LT(measurePuffs(device(), scene, "gather"), least - 4.0)
+            << "the raster's depth would do as well";
     }
 }
 
@@ -343,6 +345,22 @@ TEST_F(ParticleLaw, ACameraThatMovesHidesThemAtEachInstantByWhatItSeesThen) {
     scene.addSweep(0.0);
     scene.moveCamera({.velocity = {1.2, 0.0, -0.5}});
     EXPECT_GT(measurePuffs(device(), scene, "resolved"), 48.0);
+    EXPECT_LT(measurePuffs(device(), scene, "gather"), 42.0)
+        << "the raster's depth would do as well";
+}
+
+TEST_F(ParticleLaw, OverGlassTheyLieOverWhatIsSeenThroughIt) {
+    PuffScene scene(makePuffs());
+    scene.addSweep(2.4);
+    scene::Material glass;
+    glass.baseColorFactor = vec4(0.05f, 0.05f, 0.05f, 0.9f);
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.unlit = true;
+    scene.add(
+        test::makeQuad(2.2, 1.6, scene.addMaterial(glass)),
+        {.position = {0, 0, -2.4}, .velocity = {0.4, 0, 0}}
+    );
+    EXPECT_GT(measurePuffs(device(), scene, "resolved"), 40.0);
 }
 
 TEST_F(ParticleLaw, InstantsAreLookedUpOnlyWhereSomethingOpaqueMoves) {

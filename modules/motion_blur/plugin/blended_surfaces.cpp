@@ -31,8 +31,9 @@ void explain(
 }
 
 uint64_t countSurfaceBytes(const shader::InstantSurfaces& instants) {
-    return uint64_t(shader::surfaceWordsPerPixel(instants)) * sizeof(uint32_t) *
-           shader::surfacePixels(instants);
+    const glm::uvec2 allocated = shader::sizeInSteps(instants.sizePx);
+    return uint64_t(shader::surfaceWordsPerPixel(instants)) * sizeof(uint32_t) * allocated.x *
+           allocated.y;
 }
 
 } // namespace
@@ -43,7 +44,7 @@ bool BlendedSurfaces::Plan::sharesSurfaces() const {
     const glm::uvec2 end = particles->originPx + particles->sizePx;
     return glm::all(glm::lessThanEqual(layer.originPx, particles->originPx)) &&
            glm::all(glm::lessThanEqual(end, layer.originPx + layer.sizePx)) &&
-           particles->partCount <= layer.partCount;
+           particles->instantCount <= layer.instants.size();
 }
 
 void BlendedSurfaces::extract(const render::ExtractContext& context, extract::LayerLimits limits) {
@@ -63,8 +64,11 @@ void BlendedSurfaces::extract(const render::ExtractContext& context, extract::La
     plan.layer = extract::planBlendedLayer(
         context.world, mScene.layout(), view, context.motion, context.frame, limits
     );
+    // Over the layer there is one background: that of its parts is seen through the layer.
+    if (plan.particles && !plan.layer.empty())
+        plan.particles->partCount = 1;
     if (plan.sharesSurfaces())
-        plan.particles = plan.layer.surfaces();
+        plan.particles->instantCount = plan.layer.surfaces().instantCount;
 }
 
 std::vector<shader::InstantSurfaces> BlendedSurfaces::wanted(uint32_t slot) const {
@@ -89,7 +93,8 @@ void BlendedSurfaces::count(uint32_t slot, render::Counters& counters) const {
     // Two images of what is drawn and, of several parts, the sum of those before.
     const uint64_t perPixel = plan.layer.partCount > 1 ? 24 : 16;
     counters["blended instants"] = rectangle.instantCount;
-    counters["blended bytes"] = perPixel * shader::surfacePixels(rectangle) +
+    const glm::uvec2 allocated = shader::sizeInSteps(rectangle.sizePx);
+    counters["blended bytes"] = perPixel * allocated.x * allocated.y +
                                 (plan.layer.readsInstants ? countSurfaceBytes(rectangle) : 0);
 }
 
