@@ -87,6 +87,8 @@ void addPlay(Cycle& cycle) {
 /// and particles are drawn in depends on where they are. A window that changes its size gives back
 /// what frames before were drawn in.
 void addPauses(Cycle& cycle, const game::PictureSize& size) {
+    // Tables of each frame in flight then reach their size, those of blurred shadows among them.
+    cycle[196].push_back(tap("3"));
     cycle[200].push_back(tap("t"));
     cycle[204].push_back(tap("p")); // leaves photo mode and the pause that comes with it
     cycle[208].push_back(tap("p"));
