@@ -107,7 +107,7 @@ class EmbeddedLayer : public test::EmbeddedTest {
         std::vector<uint64_t> texels(size_t{test::kStageSize.x} * test::kStageSize.y, 0);
         for (uint32_t y = 0; y < layer.sizePx.y; ++y)
             for (uint32_t x = 0; x < layer.sizePx.x; ++x) {
-                const size_t from = size_t{y} * layer.sizePx.x + x;
+                const size_t from = size_t{y} * color.width + x; // it is larger than the layer
                 const float* const rgb = &color.pixels[from * color.channels];
                 const size_t to =
                     size_t{y + layer.originPx.y} * test::kStageSize.x + x + layer.originPx.x;

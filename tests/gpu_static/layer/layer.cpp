@@ -3,6 +3,7 @@
 #include "tests/gpu_static/layer/layer.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include "tests/gpu_static/layer/layer.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

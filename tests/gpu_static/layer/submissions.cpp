@@ -4,6 +4,7 @@
 #include "tests/gpu_static/layer/layer.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <mutex>
