@@ -94,7 +94,7 @@ struct DrawItem {
     float distance = 0.0f; ///< of the bounds' centre from the camera, metres
 };
 
-/// Draws sorted by distance, of equals by row. What stands still in the world keeps its places from
+/// Draws sorted by distance, of equals by row. What is static in the world keeps its places from
 /// frame to frame in a list of its own.
 struct DrawList {
     bool farFirst = false;
@@ -151,7 +151,7 @@ struct ExtractedFrame {
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows stand still; no two frame extractors have the same.
     uint64_t stillSet = 0;
-    /// Changes whenever a row that stands still changes, also in eye space, as when the camera
+    /// Changes whenever a static row changes, also in eye space, as when the camera
     /// moves; except for EntityRow::instanceMask, which rows that stand still in the world have
     /// only if the camera moves.
     uint64_t stillRevision = 0;

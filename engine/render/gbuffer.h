@@ -24,7 +24,7 @@ struct GBuffer {
     graph::ImageHandle entityId; ///< R32_UINT: row of the entity table, or kNoEntity
 };
 
-/// The pipelines of the G-buffer; one a scene (they know its texture table).
+/// The pipelines of the G-buffer; one per scene (they know its texture table).
 class GBufferPass {
   public:
     enum class Variant : uint8_t { Opaque, Masked, Blended, Premultiplied };

@@ -30,7 +30,7 @@ struct ParticleTargets {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     math::dvec2 jitterPx{0.0};          ///< of the colour (ViewRequest::jitterPx)
-    /// Of the blurred picture that is drawn on; nothing: the raster's depth hides everywhere.
+    /// Of the blurred picture that is drawn on. Without, the raster's depth hides everywhere.
     std::optional<ParticleInstants> instants{};
 };
 
@@ -43,7 +43,7 @@ class ParticleBuffer {
     /// \return without what ParticleTargets says
     [[nodiscard]] shader::ParticleDraw upload(const extract::ParticleTables& tables);
 
-    /// Of what upload() wrote.
+    /// The buffer that upload() wrote.
     [[nodiscard]] VkBuffer handle() const { return mBuffer.handle(); }
 
   private:
