@@ -110,6 +110,11 @@ struct MotionBlurInputs {
     /// Whether the method reads back what it counts itself.
     [[nodiscard]] bool countsOwn() const { return wantsCounters && wantsMethodCounters; }
 
+    /// Whether `color` may be where the blurred picture goes.
+    [[nodiscard]] bool mayWriteColor() const {
+        return target.isValid() ? target == color : colorIsWritable;
+    }
+
     /// Image that gets the blurred picture: one with storage and transfer usage that is no other
     /// input, or `color` if that is writable. Invalid: the cheapest. Unused by methods that do not
     /// read the raster image.

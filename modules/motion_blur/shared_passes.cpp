@@ -41,8 +41,7 @@ class OnePassMethod : public BlockMethod {
 
 void SharedPasses::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
     if (inputs.target.isValid()) {
-        stillPixelsBy =
-            inputs.target == inputs.color ? StillPixelsBy::CopyBack : StillPixelsBy::WholeCopy;
+        stillPixelsBy = inputs.mayWriteColor() ? StillPixelsBy::CopyBack : StillPixelsBy::WholeCopy;
         return;
     }
     // The share of the slot's last frame is a good guess at this one's; the picture is the same

@@ -307,8 +307,11 @@ LookUpOutputs LookUp::add(
     search.looks = looks.looks;
     if (inputs.wantsCounters)
         shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
+    const bool readsKept = !(raster.color == inputs.color);
+    outputs.stillPixelsBy =
+        readsKept && inputs.mayWriteColor() ? StillPixelsBy::InPlace : shared.stillPixelsBy;
     outputs.picture =
-        shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
+        shared.stillPixels.begin(graph, inputs.color, inputs.target, outputs.stillPixelsBy);
     // Pixels that may be traced are listed by the search.
     if (!mListsPixels)
         outputs.picture = mBlocks.addResolve(
@@ -422,7 +425,7 @@ MotionBlurOutputs LookUp::end(
         found.blocks,
         found.search.crowds.isValid(),
         params,
-        shared.stillPixelsBy
+        found.stillPixelsBy
     );
     outputs.surfaces = found.surfaces;
     const SurfaceLayersOutputs& layers = found.search.layers;

@@ -63,9 +63,10 @@ class SearchPipelines {
 struct LookUpOutputs {
     SearchResources search;
     SortedBlocks blocks;
-    ListedPixels listed;                       ///< invalid unless pixels were listed
-    graph::ImageHandle picture;                ///< with all blocks that move written
-    std::vector<graph::BufferHandle> surfaces; ///< MotionBlurOutputs::surfaces
+    ListedPixels listed;                                    ///< invalid unless pixels were listed
+    graph::ImageHandle picture;                             ///< with all blocks that move written
+    StillPixelsBy stillPixelsBy = StillPixelsBy::WholeCopy; ///< how `picture` gets the others
+    std::vector<graph::BufferHandle> surfaces;              ///< MotionBlurOutputs::surfaces
 };
 
 class LookUp {

@@ -39,6 +39,8 @@ StillPixels::StillPixels(gpu::Device& device)
 graph::ImageHandle StillPixels::begin(
     graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle wholeTarget, StillPixelsBy by
 ) const {
+    if (by == StillPixelsBy::InPlace)
+        return color;
     const bool isGiven = by == StillPixelsBy::WholeCopy && wholeTarget.isValid();
     const graph::ImageHandle target =
         isGiven ? wholeTarget : graph.createImage("blurred", graph.describeImage(color));
@@ -73,7 +75,7 @@ graph::ImageHandle StillPixels::end(
     const PassParams& params,
     StillPixelsBy by
 ) const {
-    if (by == StillPixelsBy::WholeCopy)
+    if (by != StillPixelsBy::CopyBack)
         return filtered;
     const std::array source{filtered};
     if (params.uniformMotionPx > 0.0f)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How the blurred picture gets its still pixels, which no filter writes. Two ways, the same picture
-// bit for bit: the whole picture is copied and the filters write over the copy; or the filters
-// write to a picture of their own and their blocks are copied back, so that still pixels are not
-// touched. The first costs the same whatever moves (1.1 ms at 1280x720 on lavapipe), the second in
-// proportion to what moves (4 ms where all does): passes.md, "Still pixels".
+// How the blurred picture gets its still pixels, which no filter writes. Three ways, the same
+// picture bit for bit: the whole picture is copied and the filters write over the copy; or the
+// filters write to a picture of their own and their blocks are copied back, so that still pixels
+// are not touched; or, where the sharp picture is kept for the next frame, the filters read what is
+// kept and write over the picture. The first costs the same whatever moves (1.1 ms at 1280x720 on
+// lavapipe), the second in proportion to what moves (4 ms where all does), the third nothing:
+// passes.md, "Still pixels".
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -18,6 +20,7 @@ namespace shutter::motion_blur {
 enum class StillPixelsBy : uint8_t {
     WholeCopy, ///< all is copied before the filters run
     CopyBack,  ///< what the filters wrote is copied over the picture
+    InPlace,   ///< nothing is copied: the filters read a copy that is there anyway
 };
 
 /// The cheaper way for a picture of which this share of blocks moves, with some slack about the
@@ -28,7 +31,7 @@ class StillPixels {
   public:
     explicit StillPixels(gpu::Device& device);
 
-    /// What the filters write to.
+    /// What the filters write to; `color` itself, if by InPlace.
     /// \param wholeTarget where WholeCopy puts the picture; invalid: into an image of its own
     graph::ImageHandle begin(
         graph::Graph& graph,

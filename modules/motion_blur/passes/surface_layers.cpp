@@ -86,7 +86,8 @@ SurfaceLayersOutputs SurfaceLayers::add(
     if (history && inputs.instantMotions->keepsRaster) {
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
-        graph.markOutput(addKeepColor(graph, inputs.color, target.color));
+        outputs.raster.color = addKeepColor(graph, inputs.color, target.color);
+        graph.markOutput(outputs.raster.color);
         outputs.raster.surface =
             addPack(graph, mPack, inputs.motionDepth, inputs.entityId, target.surface, params);
         graph.markOutput(outputs.raster.surface);

@@ -15,7 +15,7 @@ struct SurfaceLayer {
 };
 
 struct SurfaceLayersOutputs {
-    SurfaceLayer raster;
+    SurfaceLayer raster; ///< what is kept of it, if it is kept: the picture may then be overwritten
     SurfaceLayer second; ///< of the exposure's other end; invalid handles: there is none
     SurfaceLayer last;   ///< invalid handles: there is none, or none was wanted
 };
