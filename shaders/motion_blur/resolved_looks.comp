@@ -2,7 +2,7 @@
 // What the pixels of a block look at, found for all of them together. Where all that they may see at an
 // instant is one plane of this frame's raster, where they look is an affine map, and nothing is searched.
 // At other instants the candidates are left out that this frame's raster does not show where the block
-// would see them. A thread per block.
+// would see them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,6 +12,8 @@
 
 layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
 layout(constant_id = 1) const bool kHasParts = false;     // something deforms in this frame's raster
+layout(constant_id = 2) const uint kLanes = 1u; // threads of a block, which share its instants; a power of 4
+layout(constant_id = 3) const uint kBlocksAcross = kGroupSize; // blocks of a group, across and down
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -202,10 +204,11 @@ Candidate getCandidate(uint layer, uint tile, uint slot) {
 
 /// How far the block looks along the layer's picture in the course of the exposure, by the candidate whose
 /// picture moves most: at a middle depth, at a few instants. Pixels.
-float measureWay(uint index, ivec2 block, uint tile, bool perspective) {
+/// \param lane whose share of the candidates counts
+float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane) {
     LayerMotion layer = getLayer(InstantMotionsRef(method.motions), index);
     float longest = 0.0f;
-    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+    for (uint slot = lane; slot < kCandidatesPerTile; slot += kLanes) {
         Candidate candidate = getCandidate(index, tile, slot);
         if (candidate.key == kNoKey) break;
         if (candidate.mover == kDeformedMover) return kFarAway;
@@ -282,37 +285,85 @@ void chooseInstants(float way, inout Found found) {
     if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
 }
 
-/// Finds the look of each instant that the block's pixels may take.
-Found findLooks(BlockSearch search) {
+/// How far the block looks, by all layers.
+float measureWays(BlockSearch search, uint lane) {
+    float way = measureWay(kRasterLayer, search.block, search.tile, search.perspective, lane);
+    if (has(method, kHasLastLayer))
+        way = max(way, measureWay(kLastLayer, search.block, search.tile, search.perspective, lane));
+    if (has(method, kHasSecondLayer))
+        way = max(
+            way, measureWay(kSecondLayer, search.block, search.tile, search.perspective, lane)
+        );
+    return way;
+}
+
+/// Where a block looks in the course of the exposure.
+struct Course {
+    uint planes; // instants at which it looks at one
+    vec2 last;   // place
+    float way;   // pixels
+};
+
+void addPlace(vec2 place, inout Course course) {
+    ++course.planes;
+    if (course.planes > 1u) course.way += distance(place, course.last);
+    course.last = place;
+}
+
+// What the lanes of a block exchange, by block of the group. A lane that is alone needs none of it.
+const uint kMostBlocks = kGroupSize * kGroupSize / 4u;
+shared vec2 sPlaces[kMostBlocks][kMostLooks];
+shared uint sIsPlane[kMostBlocks]; // a bit for each instant
+shared uint sLongest[kMostBlocks]; // bits of measureWays()
+shared uint sIsMixed[kMostBlocks];
+
+/// Finds the look of each instant that the block's pixels may take. All lanes of a group call it.
+/// \param isWanted false: there is no such block
+Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
+    if (kLanes > 1u) {
+        if (lane == 0u) {
+            sIsPlane[block] = 0u;
+            sLongest[block] = 0u;
+            sIsMixed[block] = 0u;
+        }
+        barrier();
+    }
     uint middle = method.setCount / 2u;
-    uint planes = 0u;
-    vec2 before = vec2(0.0f);
-    float way = 0.0f;
-    for (uint i = 0u; i < params.sampleCount; ++i) {
+    Course course = Course(0u, vec2(0.0f), 0.0f);
+    for (uint i = lane; isWanted && i < params.sampleCount; i += kLanes) {
         PlaneMap map = findLook(search, i * method.setCount + middle);
         if (!map.isAffine) continue;
-        ++planes;
-        if (planes > 1u) way += distance(map.place, before);
-        before = map.place;
+        if (kLanes == 1u) {
+            addPlace(map.place, course);
+        } else {
+            sPlaces[block][i] = map.place;
+            atomicOr(sIsPlane[block], 1u << i);
+        }
+    }
+    if (kLanes > 1u) {
+        barrier();
+        // Each lane for itself: in the order of instants, so that the sum is the same.
+        for (uint bits = sIsPlane[block]; bits != 0u; bits &= bits - 1u)
+            addPlace(sPlaces[block][findLSB(bits)], course);
     }
     Found found;
-    found.isUniform = planes == params.sampleCount;
-    if (!found.isUniform) {
-        way = measureWay(kRasterLayer, search.block, search.tile, search.perspective);
-        if (has(method, kHasLastLayer))
-            way = max(
-                way, measureWay(kLastLayer, search.block, search.tile, search.perspective)
-            );
-        if (has(method, kHasSecondLayer))
-            way = max(
-                way, measureWay(kSecondLayer, search.block, search.tile, search.perspective)
-            );
+    found.isUniform = course.planes == params.sampleCount;
+    if (isWanted && !found.isUniform) course.way = measureWays(search, lane);
+    if (kLanes > 1u) {
+        if (!found.isUniform) atomicMax(sLongest[block], floatBitsToUint(max(course.way, 0.0f)));
+        barrier();
+        if (!found.isUniform) course.way = uintBitsToFloat(sLongest[block]);
     }
-    chooseInstants(way, found);
-    if (found.noise == 0.0f) return found;
-    for (uint instant = 0u; instant < method.instantCount; ++instant)
-        if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
-            found.isUniform = false;
+    chooseInstants(course.way, found);
+    if (isWanted && found.noise != 0.0f)
+        for (uint instant = lane; instant < method.instantCount; instant += kLanes)
+            if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
+                found.isUniform = false;
+    if (kLanes > 1u) {
+        if (!found.isUniform) sIsMixed[block] = 1u;
+        barrier();
+        found.isUniform = sIsMixed[block] == 0u;
+    }
     return found;
 }
 
@@ -343,22 +394,29 @@ void addCrowded(uvec2 block, uint tile, uint looks) {
     uLooks[looks].perY = floatBitsToUint(found.noise);
 }
 
+/// \return whether something may move in the block's tile
+bool moves(uint tile) {
+    if (uRaster[tile].candidates[0].key != kNoKey) return true;
+    if (has(method, kHasLastLayer) && uLast[tile].candidates[0].key != kNoKey) return true;
+    return has(method, kHasSecondLayer) && uSecond[tile].candidates[0].key != kNoKey;
+}
+
 void main() {
-    uvec2 block = gl_GlobalInvocationID.xy;
+    uint inGroup = gl_LocalInvocationIndex / kLanes;
+    uint lane = gl_LocalInvocationIndex % kLanes;
+    uvec2 block = gl_WorkGroupID.xy * kBlocksAcross +
+                  uvec2(inGroup % kBlocksAcross, inGroup / kBlocksAcross);
     uvec2 blocks = countBlocks();
-    if (any(greaterThanEqual(block, blocks))) return;
+    bool isThere = all(lessThan(block, blocks));
     uvec2 tiles = countTiles(params.sizePx);
     uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
     uint tile = tileAt.y * tiles.x + tileAt.x;
     uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
-    if (isCrowded(tile)) {
-        addCrowded(block, tile, looks);
-        return;
+    if (isThere && isCrowded(tile)) {
+        if (lane == 0u) addCrowded(block, tile, looks);
+        isThere = false;
     }
-    bool moves = uRaster[tile].candidates[0].key != kNoKey;
-    if (has(method, kHasLastLayer)) moves = moves || uLast[tile].candidates[0].key != kNoKey;
-    if (has(method, kHasSecondLayer)) moves = moves || uSecond[tile].candidates[0].key != kNoKey;
-    if (!moves) return;
+    isThere = isThere && moves(tile);
     bool isUniform = false;
     if (params.uniformMotionPx > 0.0f) {
         InstantMotionsRef motions = InstantMotionsRef(method.motions);
@@ -366,10 +424,12 @@ void main() {
             ivec2(block), tile, looks + 1u, partsPerInstant(method.instantCount),
             motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)
         );
-        Found found = findLooks(search);
-        uLooks[looks].perX = found.instants;
-        uLooks[looks].perY = floatBitsToUint(found.noise);
+        Found found = findLooks(search, inGroup, lane, isThere);
+        if (isThere && lane == 0u) {
+            uLooks[looks].perX = found.instants;
+            uLooks[looks].perY = floatBitsToUint(found.noise);
+        }
         isUniform = kSortsUniform && found.isUniform;
     }
-    listBlock(block, blocks, isUniform ? kUniformList : kMixedList);
+    if (isThere && lane == 0u) listBlock(block, blocks, isUniform ? kUniformList : kMixedList);
 }

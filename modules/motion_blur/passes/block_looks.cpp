@@ -24,11 +24,25 @@ gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
     return desc;
 }
 
-gpu::ComputePipelineDesc describeFind(bool sortsUniform, bool hasParts) {
+/// Threads of a block and blocks of a group, across and down: on GPUs a thread for each instant,
+/// since few blocks move and the instants of one take longest; software devices have no threads to
+/// spare.
+struct Lanes {
+    uint32_t perBlock;
+    uint32_t blocksAcross;
+};
+
+Lanes chooseLanes(const gpu::Device& device) {
+    return isSoftware(device) ? Lanes{1, shader::kGroupSize} : Lanes{16, shader::kGroupSize / 4};
+}
+
+gpu::ComputePipelineDesc describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
-    desc.specialization = {sortsUniform ? 1u : 0u, hasParts ? 1u : 0u};
+    const Lanes lanes = chooseLanes(device);
+    desc.specialization = {
+        sortsUniform ? 1u : 0u, hasParts ? 1u : 0u, lanes.perBlock, lanes.blocksAcross};
     desc.subgroupSize = kDivergingSubgroup;
     return desc;
 }
@@ -51,8 +65,8 @@ BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
           device,
           describePass("fit planes", motion_blur_resolved_planes_comp, {kSampled, kBuffer, kBuffer})
       ),
-      mFind(device, describeFind(sortsUniform, false)),
-      mFindParts(device, describeFind(sortsUniform, true)),
+      mFind(device, describeFind(device, sortsUniform, false)),
+      mFindParts(device, describeFind(device, sortsUniform, true)),
       mResolve(device, describeResolve(device)) {}
 
 bool BlockLooks::canFind(const PassParams& params) const {
@@ -171,7 +185,10 @@ BlockLookOutputs BlockLooks::addFind(
                     bindings.buffer(resources.buffer(buffer));
                 const PassParams own = withCrowds(params, resources, data.tiles.crowds);
                 const gpu::LazyPipeline& pipeline = data.tiles.parts.isValid() ? mFindParts : mFind;
-                dispatchPixels(context, pipeline.get(), bindings, own, countBlocks(params));
+                const uint32_t groups = shader::kGroupSize / chooseLanes(mDevice).blocksAcross;
+                dispatchPixels(
+                    context, pipeline.get(), bindings, own, countBlocks(params) * groups
+                );
             }
         )
         .sorted;
