@@ -3,10 +3,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #include "motion_blur/resolved.glsl"
 #include "motion_blur/resolved_parts_shared.h"
 
-layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+/// What devices have at least is what the candidates of so many tiles take: 16 KiB.
+const uint kThreadRows = 4u;
+const uint kThreads = kGroupSize * kThreadRows;
+
+layout(local_size_x = kGroupSize, local_size_y = kThreadRows) in;
 layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
@@ -15,13 +20,19 @@ layout(binding = 0, scalar) buffer RasterCandidates { TileCandidates uRaster[]; 
 layout(binding = 1, scalar) buffer LastCandidates { TileCandidates uLast[]; };
 layout(binding = 2, scalar) buffer SecondCandidates { TileCandidates uSecond[]; };
 
-Candidate getCandidate(uint layer, uint tile, uint slot) {
+/// A tile's candidates while they are sorted, by slot and thread: memory on the device is far away.
+shared uint sKeys[kCandidatesPerTile][kThreads];
+shared uint sNearest[kCandidatesPerTile][kThreads];
+shared uint sFarthestInverted[kCandidatesPerTile][kThreads];
+shared uint sParts[kCandidatesPerTile][kThreads];
+
+Candidate readCandidate(uint layer, uint tile, uint slot) {
     if (layer == kLastLayer) return uLast[tile].candidates[slot];
     if (layer == kSecondLayer) return uSecond[tile].candidates[slot];
     return uRaster[tile].candidates[slot];
 }
 
-void setCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
+void writeCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
     if (layer == kLastLayer)
         uLast[tile].candidates[slot] = candidate;
     else if (layer == kSecondLayer)
@@ -30,13 +41,13 @@ void setCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
         uRaster[tile].candidates[slot] = candidate;
 }
 
-uint getParts(uint layer, uint tile, uint index) {
+uint readParts(uint layer, uint tile, uint index) {
     if (layer == kLastLayer) return uLast[tile].parts[index];
     if (layer == kSecondLayer) return uSecond[tile].parts[index];
     return uRaster[tile].parts[index];
 }
 
-void setParts(uint layer, uint tile, uint index, uint bits) {
+void writeParts(uint layer, uint tile, uint index, uint bits) {
     if (layer == kLastLayer)
         uLast[tile].parts[index] = bits;
     else if (layer == kSecondLayer)
@@ -45,48 +56,64 @@ void setParts(uint layer, uint tile, uint index, uint bits) {
         uRaster[tile].parts[index] = bits;
 }
 
-/// In the order of searching: the sky is behind everything, and equals have one order.
-bool isBefore(Candidate a, Candidate b) {
-    uint depthA = a.key == kSkyKey ? kNoKey : a.nearest;
-    uint depthB = b.key == kSkyKey ? kNoKey : b.nearest;
-    return depthA < depthB || (depthA == depthB && a.key < b.key);
+/// What candidates are sorted by: the sky is behind everything, and equals have one order.
+uvec2 rankOf(uint slot, uint thread) {
+    uint key = sKeys[slot][thread];
+    return uvec2(key == kSkyKey ? kNoKey : sNearest[slot][thread], key);
 }
 
+bool isBefore(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
 /// \return how many there are
-uint sortCandidates(uint layer, uint tile) {
-    LayerMotion motion = getLayer(InstantMotionsRef(method.motions), layer);
+uint sortCandidates(uint layer, uint tile, uint thread) {
     uint end = 0u;
-    for (; end < kCandidatesPerTile; ++end) {
-        Candidate moved = getCandidate(layer, tile, end);
+    [[dont_unroll]] for (; end < kCandidatesPerTile; ++end) {
+        Candidate moved = readCandidate(layer, tile, end);
         if (moved.key == kNoKey) break;
-        moved.mover =
-            (moved.key & kPartBit) != 0u ? kDeformedMover : findMover(motion, moved.key);
-        uint parts = getParts(layer, tile, end);
+        uvec2 rank = uvec2(moved.key == kSkyKey ? kNoKey : moved.nearest, moved.key);
         uint slot = end;
-        for (; slot > 0u; --slot) {
-            Candidate before = getCandidate(layer, tile, slot - 1u);
-            if (!isBefore(moved, before)) break;
-            setCandidate(layer, tile, slot, before);
-            setParts(layer, tile, slot, getParts(layer, tile, slot - 1u));
+        [[dont_unroll]] for (; slot > 0u && isBefore(rank, rankOf(slot - 1u, thread)); --slot) {
+            sKeys[slot][thread] = sKeys[slot - 1u][thread];
+            sNearest[slot][thread] = sNearest[slot - 1u][thread];
+            sFarthestInverted[slot][thread] = sFarthestInverted[slot - 1u][thread];
+            sParts[slot][thread] = sParts[slot - 1u][thread];
         }
-        setCandidate(layer, tile, slot, moved);
-        setParts(layer, tile, slot, parts);
+        sKeys[slot][thread] = moved.key;
+        sNearest[slot][thread] = moved.nearest;
+        sFarthestInverted[slot][thread] = moved.farthestInverted;
+        sParts[slot][thread] = readParts(layer, tile, end);
     }
     return end;
 }
 
-/// From a bit for each part, by candidate, to a bit for each candidate, by part.
-void transposeParts(uint layer, uint tile, uint count) {
-    uint missing[kCandidatesPerTile];
-    for (uint slot = 0u; slot < count; ++slot) missing[slot] = getParts(layer, tile, slot);
-    for (uint part = 0u; part < min(method.instantCount, kExposureParts); ++part) {
-        uint bits = 0u;
-        for (uint slot = 0u; slot < count; ++slot) bits |= (~missing[slot] >> part & 1u) << slot;
-        setParts(layer, tile, part, bits);
+void writeCandidates(uint layer, uint tile, uint count, uint thread) {
+    LayerMotion motion = getLayer(InstantMotionsRef(method.motions), layer);
+    [[dont_unroll]] for (uint slot = 0u; slot < count; ++slot) {
+        uint key = sKeys[slot][thread];
+        uint mover = (key & kPartBit) != 0u ? kDeformedMover : findMover(motion, key);
+        writeCandidate(
+            layer, tile, slot,
+            Candidate(key, sNearest[slot][thread], sFarthestInverted[slot][thread], mover)
+        );
     }
 }
 
-void prepareTile(uint layer, uint tile) { transposeParts(layer, tile, sortCandidates(layer, tile)); }
+/// From a bit for each part, by candidate, to a bit for each candidate, by part.
+void transposeParts(uint layer, uint tile, uint count, uint thread) {
+    [[dont_unroll]] for (uint part = 0u; part < min(method.instantCount, kExposureParts); ++part) {
+        uint bits = 0u;
+        [[dont_unroll]] for (uint slot = 0u; slot < count; ++slot)
+            bits |= (~sParts[slot][thread] >> part & 1u) << slot;
+        writeParts(layer, tile, part, bits);
+    }
+}
+
+void prepareTile(uint layer, uint tile) {
+    uint thread = gl_LocalInvocationIndex;
+    uint count = sortCandidates(layer, tile, thread);
+    writeCandidates(layer, tile, count, thread);
+    transposeParts(layer, tile, count, thread);
+}
 
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;

@@ -34,7 +34,8 @@ gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
 }
 
 // Bits of the index of a SearchPipelines' pipeline. None leaves out what deforms: without that code
-// Mesa's compiler makes a search of `courtyard` that takes 28.7 ms and not 25.4.
+// the search of `courtyard` takes 28.7 ms and not 25.4 by Mesa's compiler for software, and 0.313
+// ms and not 0.300 on an NVIDIA H200.
 constexpr uint32_t kWithSecond = 1;
 constexpr uint32_t kWithCrowds = 2;
 
@@ -354,7 +355,9 @@ SortedCandidates LookUp::addSort(
             gpu::BindingList bindings;
             for (const graph::BufferHandle buffer : {data.raster, data.last, data.second})
                 bindings.buffer(context.resources.buffer(buffer.isValid() ? buffer : data.raster));
-            dispatchPixels(context, mSort.get(), bindings, params, countCandidateTiles(params));
+            // Its groups have half the rows of others.
+            const glm::uvec2 extent = countCandidateTiles(params) * glm::uvec2(1, 2);
+            dispatchPixels(context, mSort.get(), bindings, params, extent);
         }
     );
 }
