@@ -36,9 +36,13 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
     uint lastKey = kNoKey;
     bool hasOne = true;
     uint runs = 0u; // of pixels of one entity
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            uint key = keyOf(fetchSurface(first + ivec2(x, y)));
+    for (int y = 0; y < size.y; ++y) {
+        // All of a row is on its way before one is looked at.
+        uint keys[kGroupSize];
+        for (int x = 0; x < int(kGroupSize); ++x)
+            keys[x] = keyOf(fetchSurface(first + ivec2(min(x, size.x - 1), y)));
+        for (int x = 0; x < int(kGroupSize); ++x) {
+            uint key = keys[x];
             if (key == lastKey) continue;
             plane.keys |= keyBit(key);
             uint mover = findMover(layer, key);
@@ -48,6 +52,7 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
             lastKey = key;
             ++runs;
         }
+    }
     if (!hasOne || plane.mover == kSkyMover || isStillMover(layer, plane.mover) ||
         any(lessThan(size, ivec2(kGroupSize))))
         plane.mover = kNoMover;
