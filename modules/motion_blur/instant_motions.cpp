@@ -136,7 +136,7 @@ const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     gpu::ImageDesc desc;
     desc.width = sizePx.x;
     desc.height = sizePx.y;
-    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
     desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     raster.color = gpu::Image(mDevice, "kept colour", desc);

@@ -1,51 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The raster's depth and entity id in one image, so that a probe is one fetch, which says too
-// whether other entities are near.
+// Packs a raster's depth and entity ids.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "motion_blur/resolved.glsl"
-#include "render/scene_shared.h"
+#include "motion_blur/resolved_surface.glsl"
 
-/// Whether pixels with motion vectors of 0 get no corners. No sample is looked up in them as a rule; one
-/// that is all the same takes the way for edges, which is longer.
-layout(constant_id = 0) const bool kSkipsStill = false;
-
-layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
-layout(binding = 0) uniform sampler2D uMotionDepth;
-layout(binding = 1) uniform usampler2D uEntityId;
-layout(binding = 2, rg32ui) uniform writeonly uimage2D uSurface;
-
-uint fetchKey(ivec2 at) {
-    // texelFetch is slow on software devices
-    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
-    uint id = textureLod(uEntityId, uv, 0.0f).x;
-    return id == kNoEntity ? kSkyKey : min(id, kUnknownKey);
-}
-
-/// A bit for each corner of the pixel: the four pixels that meet there are of one entity. The picture
-/// goes on as it ends.
-uint findInnerCorners(ivec2 pixel, uint key) {
-    bool isSame[9];
-    for (int i = 0; i < 9; ++i)
-        isSame[i] = i == 4 || fetchKey(pixel + ivec2(i % 3 - 1, i / 3 - 1)) == key;
-    return (isSame[0] && isSame[1] && isSame[3] ? 1u : 0u) |
-           (isSame[1] && isSame[2] && isSame[5] ? 2u : 0u) |
-           (isSame[3] && isSame[6] && isSame[7] ? 4u : 0u) |
-           (isSame[5] && isSame[7] && isSame[8] ? 8u : 0u);
-}
-
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    uint key = fetchKey(pixel);
-    vec3 motionDepth =
-        textureLod(uMotionDepth, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).xyz;
-    uint corners = 0u;
-    if (!kSkipsStill || motionDepth.xy != vec2(0.0f)) corners = findInnerCorners(pixel, key);
-    imageStore(
-        uSurface, pixel,
-        uvec4(floatBitsToUint(max(motionDepth.z, 0.0f)), key | corners << kCornerShift, 0u, 0u)
-    );
-}
+void keepColor(ivec2 pixel) {}

@@ -2,9 +2,12 @@
 #include "modules/motion_blur/passes/surface_layers.h"
 
 #include "spirv/motion_blur/resolved_surface.comp.h"
+#include "spirv/motion_blur/resolved_surface_kept.comp.h"
 
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
+
+#include <array>
 
 namespace shutter::motion_blur {
 
@@ -23,27 +26,14 @@ gpu::ComputePipelineDesc describePack(bool skipsStill) {
     return desc;
 }
 
-/// Copies the colour as it is before the blur.
-graph::ImageHandle
-addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle kept) {
-    struct Data {
-        graph::ImageHandle source;
-        graph::ImageHandle target;
-    };
-
-    return graph
-        .addPass<Data>(
-            "keep colour",
-            graph::PassKind::Transfer,
-            [&](graph::PassBuilder& builder, Data& data) {
-                data.source = builder.read(color, Access::TransferRead);
-                data.target = builder.write(kept, Access::TransferWrite);
-            },
-            [](const Data& data, graph::PassContext& context) {
-                copyWhole(context, data.source, data.target);
-            }
-        )
-        .target;
+gpu::ComputePipelineDesc describePackKept() {
+    gpu::ComputePipelineDesc desc = describePass(
+        "pack surface",
+        motion_blur_resolved_surface_kept_comp,
+        {kSampled, kSampled, kStorage, kSampled, kStorage}
+    );
+    desc.specialization = {1u};
+    return desc;
 }
 
 graph::ImageHandle createSurface(graph::Graph& graph, const PassParams& params) {
@@ -61,7 +51,7 @@ importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLa
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
     : mSampler(device.nearestSampler()), mPack(device, describePack(true)),
-      mPackWhole(device, describePack(false)) {}
+      mPackKept(device, describePackKept()), mPackWhole(device, describePack(false)) {}
 
 SurfaceLayersOutputs SurfaceLayers::add(
     graph::Graph& graph, const MotionBlurInputs& inputs, const PassParams& params, bool wantLast
@@ -86,10 +76,8 @@ SurfaceLayersOutputs SurfaceLayers::add(
     if (history && inputs.instantMotions->keepsRaster) {
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
-        outputs.raster.color = addKeepColor(graph, inputs.color, target.color);
+        outputs.raster = addPackKept(graph, inputs, target, params);
         graph.markOutput(outputs.raster.color);
-        outputs.raster.surface =
-            addPack(graph, mPack, inputs.motionDepth, inputs.entityId, target.surface, params);
         graph.markOutput(outputs.raster.surface);
     } else {
         outputs.raster.surface = addPack(
@@ -108,6 +96,43 @@ SurfaceLayersOutputs SurfaceLayers::add(
                 params
             )};
     return outputs;
+}
+
+SurfaceLayer SurfaceLayers::addPackKept(
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    const SurfaceLayer& target,
+    const PassParams& params
+) const {
+    struct Data {
+        std::array<graph::ImageHandle, 3> in; ///< motion and depth, ids, colour
+        SurfaceLayer kept;
+    };
+
+    return graph
+        .addPass<Data>(
+            "pack surface",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.in = {inputs.motionDepth, inputs.entityId, inputs.color};
+                for (const graph::ImageHandle image : data.in)
+                    builder.read(image, Access::SampledCompute);
+                data.kept = {
+                    builder.write(target.color, Access::StorageWrite),
+                    builder.write(target.surface, Access::StorageWrite)};
+            },
+            [this, params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                gpu::BindingList bindings;
+                bindings.sampled(resources.view(data.in[0]), mSampler)
+                    .sampled(resources.view(data.in[1]), mSampler)
+                    .storage(resources.image(data.kept.surface))
+                    .sampled(resources.view(data.in[2]), mSampler)
+                    .storage(resources.image(data.kept.color));
+                dispatchPixels(context, mPackKept.get(), bindings, params, params.sizePx);
+            }
+        )
+        .kept;
 }
 
 graph::ImageHandle SurfaceLayers::addPack(

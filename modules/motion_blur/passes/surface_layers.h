@@ -31,6 +31,15 @@ class SurfaceLayers {
     ) const;
 
   private:
+    /// Packs this frame's raster and keeps its colour.
+    /// \param target where what is kept goes
+    [[nodiscard]] SurfaceLayer addPackKept(
+        graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const SurfaceLayer& target,
+        const PassParams& params
+    ) const;
+
     /// \param pack mPack or mPackWhole
     /// \param motionDepth, entityId of the raster to be packed
     [[nodiscard]] graph::ImageHandle addPack(
@@ -44,6 +53,7 @@ class SurfaceLayers {
 
     VkSampler mSampler;
     gpu::LazyPipeline mPack;
+    gpu::LazyPipeline mPackKept;  ///< keeps the colour, too
     gpu::LazyPipeline mPackWhole; ///< of rasters whose motion vectors say nothing
 };
 
