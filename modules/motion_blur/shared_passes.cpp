@@ -66,8 +66,9 @@ MotionBlurOutputs BlockMethod::add(
     const SortedBlocks blocks = shared.sorter.add(graph, tiles, params, false);
     if (inputs.wantsCounters)
         shared.sorter.addCounters(graph, blocks, params, inputs.slot);
-    const graph::ImageHandle target =
-        shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
+    const graph::ImageHandle target = shared.stillPixels.begin(
+        graph, inputs.color, inputs.target, shared.stillPixelsBy, blocks.lists, params
+    );
     MotionBlurOutputs outputs;
     outputs.views = {{"tile_max", tiles.tiles}, {"tiles", tiles.dominant}};
     const graph::ImageHandle filtered =

@@ -18,8 +18,9 @@ layout(binding = SHUTTER_BLOCK_LIST_BINDING, scalar) SHUTTER_BLOCK_LIST_ACCESS b
 } uBlocks;
 
 uint countOf(BlockHeader header, uint list) {
-    return list == kUniformList ? header.uniformCount
-                                : (list == kMixedList ? header.mixedCount : header.maskedCount);
+    if (list == kUniformList) return header.uniformCount;
+    if (list == kMixedList) return header.mixedCount;
+    return list == kMaskedList ? header.maskedCount : header.stillCount;
 }
 
 /// x | y << 16 of the group's block; false where the dispatch has more groups than the list blocks.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Sorts the picture's blocks into lists by what they ask for. A thread a block; still blocks are in
-// no list. A block is the most demanding of the tiles its pixels look up, unless no smear reaches it.
+// Sorts the picture's blocks into lists by what they need. A thread per block. A block is the most
+// demanding of the tiles its pixels look up, unless no smear reaches it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/block_class.glsl"
 
 layout(constant_id = 0) const uint kForMask = 0u; // 1: what may be masked goes to the candidates
+layout(constant_id = 1) const bool kListsStill = false; // else still blocks are in no list
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
@@ -55,6 +56,14 @@ float classifyBlock(vec2 first, vec2 end) {
     return demand > kClassStill && isReached(first, end) ? demand : kClassStill;
 }
 
+/// \param index of the entry in the list
+void writeEntry(uint list, uint index, uvec2 block, uvec2 blocks) {
+    uBlocks.entries[list * blocks.x * blocks.y + index] = block.x | block.y << 16;
+    // Both dimensions of a dispatch follow the list as it grows: no pass is needed to add them up.
+    atomicMax(uArguments[list].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uArguments[list].groupsY, 1u);
+}
+
 void main() {
     uvec2 block = gl_GlobalInvocationID.xy;
     uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
@@ -62,23 +71,17 @@ void main() {
     vec2 first = vec2(block * kGroupSize);
     vec2 end = min(first + float(kGroupSize), vec2(params.sizePx));
     float demand = classifyBlock(first, end);
-    if (demand == kClassStill) return;
-    uint entry = block.x | block.y << 16;
-    // Both dimensions of a dispatch follow the list as it grows: no pass is needed to add them up.
-    if (kForMask != 0u && demand == kClassDeep) {
+    if (demand == kClassStill) {
+        if (kListsStill)
+            writeEntry(kStillList, atomicAdd(uBlocks.header.stillCount, 1u), block, blocks);
+    } else if (kForMask != 0u && demand == kClassDeep) {
         uint index = atomicAdd(uCandidates.header.uniformCount, 1u);
-        uCandidates.entries[index] = entry;
+        uCandidates.entries[index] = block.x | block.y << 16;
         atomicMax(uCandidateArguments.groupsX, min(index + 1u, kListRow));
         if (index % kListRow == 0u) atomicAdd(uCandidateArguments.groupsY, 1u);
     } else if (demand == kClassUniform) {
-        uint index = atomicAdd(uBlocks.header.uniformCount, 1u);
-        uBlocks.entries[index] = entry;
-        atomicMax(uArguments[kUniformList].groupsX, min(index + 1u, kListRow));
-        if (index % kListRow == 0u) atomicAdd(uArguments[kUniformList].groupsY, 1u);
+        writeEntry(kUniformList, atomicAdd(uBlocks.header.uniformCount, 1u), block, blocks);
     } else {
-        uint index = atomicAdd(uBlocks.header.mixedCount, 1u);
-        uBlocks.entries[kMixedList * blocks.x * blocks.y + index] = entry;
-        atomicMax(uArguments[kMixedList].groupsX, min(index + 1u, kListRow));
-        if (index % kListRow == 0u) atomicAdd(uArguments[kMixedList].groupsY, 1u);
+        writeEntry(kMixedList, atomicAdd(uBlocks.header.mixedCount, 1u), block, blocks);
     }
 }

@@ -33,11 +33,12 @@ struct MotionBlurParams {
 };
 
 // Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the
-// classification are dispatched over compacted lists of them. Three lists share a buffer.
+// classification are dispatched over compacted lists of them. Four lists share a buffer.
 SHUTTER_CONST uint kUniformList = 0u; // all motion around is the dominant one
 SHUTTER_CONST uint kMixedList = 1u;   // no masked pixel in it, or no mask was asked for
 SHUTTER_CONST uint kMaskedList = 2u;  // masked pixels in it
-SHUTTER_CONST uint kListCount = 3u;
+SHUTTER_CONST uint kStillList = 3u;   // nothing that moves reaches it; where it is wanted
+SHUTTER_CONST uint kListCount = 4u;
 /// In the other buffer of the mask's passes: mixed blocks that may have masked pixels.
 SHUTTER_CONST uint kCandidateList = 0u;
 
@@ -58,7 +59,7 @@ struct BlockHeader {
     uint uniformCount;
     uint mixedCount;
     uint maskedCount;
-    uint padding0;
+    uint stillCount;
 };
 
 /// Head of the list of tiles with masked pixels; the tiles (x | y << 16) follow, as many as there

@@ -97,8 +97,9 @@ MotionBlurOutputs HybridPasses::add(
         mLayer.addDominant(graph, layerInputs, params),
         mask.mask};
     const RevealedViews views = mLayer.addViews(graph, layerInputs, params);
-    const graph::ImageHandle target =
-        shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
+    const graph::ImageHandle target = shared.stillPixels.begin(
+        graph, inputs.color, inputs.target, shared.stillPixelsBy, mask.blocks.lists, params
+    );
     const graph::ImageHandle filtered = mGather.add(
         graph,
         {inputs.color, inputs.motionDepth, tiles.dominant, layer},

@@ -14,13 +14,13 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeSort(bool forMask) {
+gpu::ComputePipelineDesc describeSort(const gpu::Device& device, bool forMask) {
     gpu::ComputePipelineDesc desc = describePass(
         "sort blocks",
         motion_blur_classify_blocks_comp,
         {kSampled, kSampled, kBuffer, kBuffer, kBuffer, kBuffer}
     );
-    desc.specialization = {forMask ? 1u : 0u};
+    desc.specialization = {forMask ? 1u : 0u, BlockSorter::listsStill(device) ? 1u : 0u};
     return desc;
 }
 
@@ -49,9 +49,13 @@ constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
 
 } // namespace
 
+bool BlockSorter::listsStill(const gpu::Device& device) {
+    return !isSoftware(device);
+}
+
 BlockSorter::BlockSorter(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mSort(device, describeSort(false)),
-      mSortForMask(device, describeSort(true)),
+    : mSampler(device.nearestSampler()), mSort(device, describeSort(device, false)),
+      mSortForMask(device, describeSort(device, true)),
       mHeaders(device, "block counters", kMostSlots * kHeaderBytes, 0, gpu::MemoryUse::Readback) {
     mHeaders.writeZeros();
 }

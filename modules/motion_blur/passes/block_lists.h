@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sorts the picture's blocks of 8 x 8 pixels into lists by what they ask for; the passes after are
-// dispatched over the lists, without the CPU. Still blocks are in none.
+// dispatched over the lists, without the CPU.
 #pragma once
 
 #include "engine/gpu/frame.h"
@@ -24,7 +24,7 @@ struct BlockLists {
 };
 
 struct SortedBlocks {
-    BlockLists lists; ///< kUniformList, kMixedList; after the ray mask kMaskedList, too
+    BlockLists lists; ///< kUniformList, kMixedList, kStillList; after the ray mask kMaskedList
     /// kCandidateList: what the ray mask has to look at; after the list a flag for each block of
     /// the picture, which the ray mask sets where it has masked pixels.
     BlockLists candidates;
@@ -41,6 +41,10 @@ struct BlockCounters {
 class BlockSorter {
   public:
     explicit BlockSorter(gpu::Device& device);
+
+    /// Whether still blocks are in a list: GPUs copy them one by one. Software devices copy the
+    /// whole picture faster.
+    [[nodiscard]] static bool listsStill(const gpu::Device& device);
 
     /// Lists that nothing has written, to be cleared with others.
     /// \param forMask blocks that may have masked pixels go to the candidates

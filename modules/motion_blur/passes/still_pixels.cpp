@@ -26,7 +26,9 @@ StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
 }
 
 StillPixels::StillPixels(gpu::Device& device)
-    : mUniform(
+    : mListsStill(BlockSorter::listsStill(device)),
+      mStill(device, shader::kStillList, {"copy still pixels", motion_blur_copy_blocks_comp, 1}),
+      mUniform(
           device, shader::kUniformList, {"write uniform blocks", motion_blur_copy_blocks_comp, 1}
       ),
       mMixed(device, shader::kMixedList, {"write mixed blocks", motion_blur_copy_blocks_comp, 1}),
@@ -35,6 +37,22 @@ StillPixels::StillPixels(gpu::Device& device)
           shader::kCandidateList,
           {"write candidate blocks", motion_blur_copy_blocks_comp, 1}
       ) {}
+
+graph::ImageHandle StillPixels::begin(
+    graph::Graph& graph,
+    graph::ImageHandle color,
+    graph::ImageHandle wholeTarget,
+    StillPixelsBy by,
+    const BlockLists& sorted,
+    const PassParams& params
+) const {
+    if (!mListsStill || by != StillPixelsBy::WholeCopy)
+        return begin(graph, color, wholeTarget, by);
+    const graph::ImageHandle target =
+        wholeTarget.isValid() ? wholeTarget
+                              : graph.createImage("blurred", graph.describeImage(color));
+    return mStill.add(graph, std::array{color}, sorted, target, params);
+}
 
 graph::ImageHandle StillPixels::begin(
     graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle wholeTarget, StillPixelsBy by

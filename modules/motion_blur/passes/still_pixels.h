@@ -18,7 +18,7 @@
 namespace shutter::motion_blur {
 
 enum class StillPixelsBy : uint8_t {
-    WholeCopy, ///< all is copied before the filters run
+    WholeCopy, ///< all is copied before the filters run, or all still blocks if there is a list
     CopyBack,  ///< what the filters wrote is copied over the picture
     InPlace,   ///< nothing is copied: the filters read a copy that is there anyway
 };
@@ -40,6 +40,17 @@ class StillPixels {
         StillPixelsBy by
     ) const;
 
+    /// The same, where WholeCopy copies still blocks alone if they are in a list.
+    /// \param sorted of BlockSorter
+    graph::ImageHandle begin(
+        graph::Graph& graph,
+        graph::ImageHandle color,
+        graph::ImageHandle wholeTarget,
+        StillPixelsBy by,
+        const BlockLists& sorted,
+        const PassParams& params
+    ) const;
+
     /// The whole picture.
     /// \param hasCandidates whether there were some, else all that moves is in the lists
     graph::ImageHandle
@@ -52,6 +63,8 @@ class StillPixels {
         StillPixelsBy by) const;
 
   private:
+    bool mListsStill;
+    BlockFilter mStill;
     BlockFilter mUniform;
     BlockFilter mMixed;
     BlockFilter mCandidates;
