@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Longest motion of the revealed layer in each tile with masked pixels; elsewhere it is the raster's.
-// One group a listed tile, one barrier.
+// A group per listed tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -9,14 +9,15 @@
 #define SHUTTER_TILE_LIST_BINDING 4
 #include "motion_blur/tile_list.glsl"
 
-layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(local_size_x = kGroupSize, local_size_y_id = 0) in;
+layout(constant_id = 0) const uint kRows = kGroupSize; // of a group, as in tile_max.comp
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform sampler2D uRevealMotionDepth;
 layout(binding = 2) uniform sampler2D uMask;
 layout(binding = 3, rg32f) uniform writeonly image2D uRevealTiles;
 
-const uint kThreads = kGroupSize * kGroupSize;
+const uint kThreads = kGroupSize * kRows;
 shared vec2 sLongest[kThreads];
 
 void main() {
@@ -28,7 +29,7 @@ void main() {
     uvec2 end = listed ? min(first + params.tileSizePx, params.sizePx) : first;
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     vec2 longest = vec2(0.0f);
-    for (uint y = first.y + gl_LocalInvocationID.y; y < end.y; y += kGroupSize)
+    for (uint y = first.y + gl_LocalInvocationID.y; y < end.y; y += kRows)
         for (uint x = first.x + gl_LocalInvocationID.x; x < end.x; x += kGroupSize) {
             vec2 uv = (vec2(x, y) + 0.5f) * pixelsToUv;
             vec3 texel;
@@ -40,10 +41,18 @@ void main() {
                 longest, shownMotion(texel.xy, texel.z, params.maxMotionDepth)
             );
         }
-    sLongest[gl_LocalInvocationIndex] = longest;
+    uint thread = gl_LocalInvocationIndex;
+    sLongest[thread] = longest;
     barrier();
-    if (!listed || gl_LocalInvocationIndex != 0u) return;
-    for (uint i = 1u; i < kThreads; ++i) longest = longerMotion(longest, sLongest[i]);
+    // First down each column, then across: no thread has to take over all.
+    if (thread < kGroupSize) {
+        for (uint i = thread + kGroupSize; i < kThreads; i += kGroupSize)
+            longest = longerMotion(longest, sLongest[i]);
+        sLongest[thread] = longest;
+    }
+    barrier();
+    if (!listed || thread != 0u) return;
+    for (uint i = 1u; i < kGroupSize; ++i) longest = longerMotion(longest, sLongest[i]);
     longest = clampMotion(longest, float(params.tileSizePx));
     imageStore(uRevealTiles, ivec2(tile), vec4(longest, 0.0f, 0.0f));
 }

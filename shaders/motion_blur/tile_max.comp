@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Longest motion in each tile, clamped to the tile's size; how far the others are from it; the range
-// of depths. One group a tile, one barrier.
+// of depths. A group per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -41,6 +41,14 @@ void take(vec2 uv) {
     ranges.depth = vec2(min(ranges.depth.x, texel.z), max(ranges.depth.y, texel.z));
 }
 
+/// What another thread has found is taken over.
+void take(Ranges other) {
+    ranges.longest = longerMotion(ranges.longest, other.longest);
+    ranges.least = min(ranges.least, other.least);
+    ranges.greatest = max(ranges.greatest, other.greatest);
+    ranges.depth = vec2(min(ranges.depth.x, other.depth.x), max(ranges.depth.y, other.depth.y));
+}
+
 const uint kRows = kThreads / kTileColumns;
 const uint kUnrolled = 4u; // rows that a thread takes in one go
 
@@ -64,17 +72,19 @@ void main() {
             take(vec2(centreX, min(centreY + float(3u * kRows), lastCentre.y) * pixelsToUv.y));
         }
     }
-    sRanges[gl_LocalInvocationIndex] = ranges;
+    uint thread = gl_LocalInvocationIndex;
+    sRanges[thread] = ranges;
     barrier();
-    if (gl_LocalInvocationIndex != 0u) return;
-    for (uint i = 1u; i < kThreads; ++i) {
-        ranges.longest = longerMotion(ranges.longest, sRanges[i].longest);
-        ranges.least = min(ranges.least, sRanges[i].least);
-        ranges.greatest = max(ranges.greatest, sRanges[i].greatest);
-        ranges.depth = vec2(
-            min(ranges.depth.x, sRanges[i].depth.x), max(ranges.depth.y, sRanges[i].depth.y)
-        );
+    if (kRows > 1u) {
+        // First down each column, then across: no thread has to take over all.
+        if (thread < kTileColumns) {
+            for (uint i = thread + kTileColumns; i < kThreads; i += kTileColumns) take(sRanges[i]);
+            sRanges[thread] = ranges;
+        }
+        barrier();
     }
+    if (thread != 0u) return;
+    for (uint i = 1u; i < kTileColumns; ++i) take(sRanges[i]);
     float limit = float(params.tileSizePx);
     float spread = tileSpread(ranges.least, ranges.greatest, length(ranges.longest), limit);
     imageStore(uTiles, ivec2(tile), vec4(clampMotion(ranges.longest, limit), 0.0f, 0.0f));

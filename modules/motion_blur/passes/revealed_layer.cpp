@@ -15,6 +15,16 @@ namespace {
 
 using graph::Access;
 
+gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
+    gpu::ComputePipelineDesc desc = describePass(
+        "tile max of reveal",
+        motion_blur_reveal_tile_max_comp,
+        {kSampled, kSampled, kSampled, kStorage, kBuffer}
+    );
+    desc.specialization = {isSoftware(device) ? shader::kGroupSize : 32u};
+    return desc;
+}
+
 struct TileData {
     std::vector<graph::ImageHandle> in;
     graph::BufferHandle tiles;
@@ -25,14 +35,7 @@ struct TileData {
 } // namespace
 
 RevealedLayerPasses::RevealedLayerPasses(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mTileMax(
-                                             device,
-                                             describePass(
-                                                 "tile max of reveal",
-                                                 motion_blur_reveal_tile_max_comp,
-                                                 {kSampled, kSampled, kSampled, kStorage, kBuffer}
-                                             )
-                                         ),
+    : mSampler(device.nearestSampler()), mTileMax(device, describeTileMax(device)),
       mNeighbourMax(
           device,
           describePass(

@@ -18,7 +18,7 @@ gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
         describePass("tile max", motion_blur_tile_max_comp, {kSampled, kStorage, kStorage});
     // A software device runs a group's threads in turn and adds up what each found in one of them:
     // as few as it runs at once. Elsewhere as many as keep a processor busy.
-    const uint32_t threads = shader::kTileColumns * (isSoftware(device) ? 1u : 8u);
+    const uint32_t threads = shader::kTileColumns * (isSoftware(device) ? 1u : 32u);
     desc.specialization = {threads, threads};
     return desc;
 }
