@@ -127,6 +127,10 @@ FaultPlan readPlan() {
         const auto [name, value] = readPair(part);
         plan.limits[name] = readNumber(value);
     }
+    if (const std::string text = readVariable("SHUTTER_FAULT_KIND"); text == "discrete")
+        plan.kind = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    else if (!text.empty())
+        refuse("'" + text + "' is no kind of device");
     for (const std::string& type : split(readVariable("SHUTTER_FAULT_MEMORY"), ','))
         plan.memoryTypes.push_back(readMemoryType(type));
     if (plan.memoryTypes.size() > VK_MAX_MEMORY_TYPES)

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct FaultPlan {
     std::map<uint32_t, VkResult> presentations;
     std::set<std::string> hidden; ///< extensions and features that are said to be missing
     std::map<std::string, uint32_t> limits;
+    std::optional<VkPhysicalDeviceType> kind;       ///< none: the device's own
     std::vector<VkMemoryPropertyFlags> memoryTypes; ///< empty: the device's own
     std::string countsFile;                         ///< empty: none
     uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`

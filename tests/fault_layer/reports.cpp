@@ -42,16 +42,21 @@ void reportLimits(VkPhysicalDeviceLimits& limits) {
     }
 }
 
+void report(VkPhysicalDeviceProperties& properties) {
+    reportLimits(properties.limits);
+    properties.deviceType = FaultPlan::get().kind.value_or(properties.deviceType);
+}
+
 VKAPI_ATTR void VKAPI_CALL
 getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {
     findInstance(device).GetPhysicalDeviceProperties(device, properties);
-    reportLimits(properties->limits);
+    report(*properties);
 }
 
 VKAPI_ATTR void VKAPI_CALL
 getProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
     findInstance(device).GetPhysicalDeviceProperties2(device, properties);
-    reportLimits(properties->properties.limits);
+    report(properties->properties);
 }
 
 /// A feature, at its place in a struct of a chain.
