@@ -24,7 +24,7 @@ Displaced displace(
     uint mover = findMover(layer, surface.key);
     if (mover == kNoMover) return unknown;
     if (isStillMover(layer, mover)) return Displaced(true, at, surface.depth);
-    if (mover == kDeformedMover) {
+    if (isDeformed(mover)) {
         if (!has(method, kHasWays) && index != kRasterLayer) return unknown;
         vec2 displacement;
         float s = timeOf(InstantMotionsRef(method.motions), instant);

@@ -22,7 +22,7 @@ struct Substitute {
 vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
     uint mover = findMover(pixel.raster, hiding.key);
     if (mover == kNoMover || isStillMover(pixel.raster, mover)) return pixel.x;
-    if (mover == kDeformedMover) {
+    if (isDeformed(mover)) {
         vec2 displacement;
         float s = timeOf(InstantMotionsRef(method.motions), instant);
         return findDisplacement(kRasterLayer, ivec2(at), s, displacement) ? pixel.x - displacement
@@ -107,7 +107,7 @@ Substitute findSubstitute(PixelSearch pixel, uint instant) {
     uint slots = getPart(kRasterLayer, pixel.tile, partOf(instant, pixel.partsPerInstant));
     for (; slots != 0u; slots &= slots - 1u) {
         Candidate candidate = getCandidate(kRasterLayer, pixel.tile, uint(findLSB(slots)));
-        if (candidate.mover != kDeformedMover) addHidden(pixel, instant, candidate, best);
+        if (!isDeformed(candidate.mover)) addHidden(pixel, instant, candidate, best);
     }
     return best;
 }

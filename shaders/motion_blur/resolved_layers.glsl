@@ -40,6 +40,11 @@ layout(binding = 21) uniform usampler2D uSecondWays;
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;
 
+/// Whether something deforms in any of the layers.
+layout(constant_id = 4) const bool kHasParts = true;
+
+bool isDeformed(uint mover) { return kHasParts && mover == kDeformedMover; }
+
 bool isSecond(uint layer) { return kHasSecond && layer == kSecondLayer; }
 
 /// A surface that a pixel saw at an instant.

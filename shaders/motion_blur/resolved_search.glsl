@@ -255,7 +255,7 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     uint row = RowTable(isSecond(found.layer) ? motions.secondRows : motions.lastRows)
                    .rows[found.key];
     uint mover = findMover(pixel.raster, row);
-    if (mover == kNoMover || mover == kDeformedMover) return false;
+    if (mover == kNoMover || isDeformed(mover)) return false;
     InstantMotion motion = InstantMotionTable(pixel.raster.motions)
                                .motions[mover * method.instantCount + instant];
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
@@ -287,7 +287,7 @@ void searchLayer(
             (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
             break;
         Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
-        if (candidate.mover == kDeformedMover)
+        if (isDeformed(candidate.mover))
             searchPart(
                 index, candidate.key & ~kPartBit,
                 timeOf(InstantMotionsRef(method.motions), instant), pixel.x, found, doubt
