@@ -10,6 +10,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/lib/messages.sh
 source "$root/scripts/lib/messages.sh"
 
+# Shots of docs/gpu.md; of the one in the middle each pass has its row.
+shots=(vase courtyard pan)
 methods=(gather hybrid resolved)
 sizes=(1920x1080 2560x1440 3840x2160)
 repeat=20
@@ -35,31 +37,39 @@ nothing else of the machine.
 TEXT
 }
 
-# A file of the work folder that holds what failed, for method or step $1 and size $2.
-failure_file() { printf '%s/%s_%s.error' "$work" "$1" "$2"; }
+# A file of the work folder that holds what failed, for shot $1, method or step $2 and size $3.
+failure_file() { printf '%s/%s_%s_%s.error' "$work" "$1" "$2" "$3"; }
 
-# Draws the courtyard with method $1 at size $2 into $3, with the options that follow. What the program
-# says goes to the failure file, which is left where it fails.
+# Draws shot $1 with method $2 at size $3 into $4, with the options that follow. What the program says
+# goes to the failure file, which is left where it fails.
 draw() {
-    local method=$1 size=$2 picture=$3 said
-    shift 3
-    said=$(failure_file "$method" "$size")
-    if "$program" render "$scenes/courtyard.glb" --method "$method" --size "$size" \
-        --out "$picture" "${device[@]}" "$@" >"$said" 2>&1; then
+    local shot=$1 method=$2 size=$3 picture=$4 said
+    local options=(--unlit --exposure 0.016666667 --fps 30)
+    shift 4
+    case $shot in
+        vase) options+=("$scenes/vase.glb") ;;
+        courtyard) options+=("$scenes/courtyard.glb" --time 0.5) ;;
+        pan) options+=("$scenes/courtyard.glb" --time 0.5 --camera pan) ;;
+    esac
+    said=$(failure_file "$shot" "$method" "$size")
+    if "$program" render "${options[@]}" --method "$method" --size "$size" --out "$picture" \
+        "${device[@]}" "$@" >"$said" 2>&1; then
         rm "$said"
     else
-        say "$method at $size failed: $(tail -n 1 "$said")"
+        say "$shot by $method at $size failed: $(tail -n 1 "$said")"
         return 1
     fi
 }
 
 measure_times() {
-    local method size
+    local shot method size
     for size in "${sizes[@]}"; do
-        for method in "${methods[@]}"; do
-            say "$method at $size"
-            draw "$method" "$size" "$work/picture.exr" --repeat "$repeat" \
-                --stats "$work/${method}_$size.json" || true
+        for shot in "${shots[@]}"; do
+            for method in "${methods[@]}"; do
+                say "$shot by $method at $size"
+                draw "$shot" "$method" "$size" "$work/picture.exr" --repeat "$repeat" \
+                    --stats "$work/${shot}_${method}_$size.json" || true
+            done
         done
         measure_blur "$size"
     done
@@ -68,7 +78,7 @@ measure_times() {
 # How long the smears are at size $1, pixels: the length of the motion's two channels.
 measure_blur() {
     local size=$1
-    draw gather "$size" "$work/blur.exr" --aov motion || return 0
+    draw courtyard gather "$size" "$work/blur.exr" --aov motion || return 0
     oiiotool "$work/blur.motion.exr" --ch motion.x,motion.y --dup --mul --chsum:weight=1,1 \
         --powc 0.5 --printstats >"$work/blur_$size.stats" 2>&1 || rm -f "$work/blur_$size.stats"
 }
@@ -86,8 +96,8 @@ print_validation() {
     local method said messages=
     printf '## Validation\n\n'
     for method in "${methods[@]}"; do
-        draw "$method" "${sizes[0]}" "$work/picture.exr" --validate ||
-            messages+="${method}: $(<"$(failure_file "$method" "${sizes[0]}")")"$'\n'
+        draw courtyard "$method" "${sizes[0]}" "$work/picture.exr" --validate ||
+            messages+="${method}: $(<"$(failure_file courtyard "$method" "${sizes[0]}")")"$'\n'
     done
     if [[ -n $messages ]]; then
         printf '```\n%s```\n\n' "$messages"
@@ -121,9 +131,9 @@ print_pictures() {
     printf '| method | size | difference |\n|---|---|---|\n'
     for method in "${methods[@]}"; do
         device=("${chosen[@]}")
-        draw "$method" "$size" "$work/card.png" || continue
+        draw courtyard "$method" "$size" "$work/card.png" || continue
         device=(--device "$software")
-        draw "$method" "$size" "$work/software.png" || continue
+        draw courtyard "$method" "$size" "$work/software.png" || continue
         compared=$("$program" compare "$work/card.png" "$work/software.png" 2>&1) ||
             compared="compare failed: $compared"
         printf '| %s | %s | %s |\n' "$method" "$size" "$compared"
@@ -134,7 +144,8 @@ print_pictures() {
 
 write_report() {
     print_system
-    python3 "$root/scripts/lib/gpu_report_tables.py" "$work" "${methods[@]}" -- "${sizes[@]}"
+    python3 "$root/scripts/lib/gpu_report_tables.py" "$work" "${shots[@]}" -- "${methods[@]}" -- \
+        "${sizes[@]}"
     print_validation
     print_pictures
 }
@@ -167,6 +178,7 @@ read_arguments() {
 }
 
 main() {
+    local scene
     read_arguments "$@"
     if [[ -z $program ]]; then
         "$root/scripts/setup.sh"
@@ -174,7 +186,9 @@ main() {
         scenes=$root/build/release/assets
     fi
     [[ -x $program ]] || die "--program $program cannot be run"
-    [[ -e $scenes/courtyard.glb ]] || die "--scenes '$scenes' holds no courtyard.glb"
+    for scene in vase courtyard; do
+        [[ -e $scenes/$scene.glb ]] || die "--scenes '$scenes' holds no $scene.glb"
+    done
     work=$(mktemp -d)
     trap 'rm -rf "$work"' EXIT
     measure_times

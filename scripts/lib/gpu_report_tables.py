@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Prints the tables of scripts/gpu_report.sh: gpu_report_tables.py FOLDER METHOD... -- SIZE...
+"""Prints the tables of scripts/gpu_report.sh:
+gpu_report_tables.py FOLDER SHOT... -- METHOD... -- SIZE...
 
-The folder holds METHOD_SIZE.json of `render --stats`, or METHOD_SIZE.error with what the program said
-instead, and blur_SIZE.stats of oiiotool.
+The folder holds SHOT_METHOD_SIZE.json of `render --stats`, or SHOT_METHOD_SIZE.error with what the
+program said instead, and blur_SIZE.stats of oiiotool.
 """
 
 import json
@@ -11,15 +12,17 @@ import re
 import sys
 
 MEBIBYTE = 1024 * 1024
+# The shot whose passes have rows.
+DETAILED = "courtyard"
 
 
-def read_statistics(folder, method, size):
-    file = folder / f"{method}_{size}.json"
+def read_statistics(folder, shot, method, size):
+    file = folder / f"{shot}_{method}_{size}.json"
     return json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
 
 
 def read_failure(folder, method, size):
-    file = folder / f"{method}_{size}.error"
+    file = folder / f"{DETAILED}_{method}_{size}.error"
     lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
     return lines[-1] if lines else "it was not measured"
 
@@ -65,8 +68,20 @@ def print_row(*cells):
     print("| " + " | ".join(str(cell) for cell in cells) + " |")
 
 
+def print_sums(folder, shots, methods, sizes):
+    print("## Sums\n\nms of the blur's own passes, as in docs/gpu.md.\n")
+    print_row("shot", "method", *sizes)
+    print_row("---", "---", *("---:" for _ in sizes))
+    for shot in shots:
+        for method in methods:
+            measured = [read_statistics(folder, shot, method, size) for size in sizes]
+            print_row(shot, method, *(f"{time_of_owner(each, 'blur'):.3f}" if each else "-"
+                                      for each in measured))
+    print()
+
+
 def print_method(folder, method, sizes):
-    measured = {size: read_statistics(folder, method, size) for size in sizes}
+    measured = {size: read_statistics(folder, DETAILED, method, size) for size in sizes}
     missing = [size for size, statistics in measured.items() if not statistics]
     measured = {size: statistics for size, statistics in measured.items() if statistics}
     print(f"## {method}\n")
@@ -92,10 +107,18 @@ def print_method(folder, method, sizes):
 
 
 def main():
-    arguments = sys.argv[1:]
-    split = arguments.index("--")
-    for method in arguments[1:split]:
-        print_method(pathlib.Path(arguments[0]), method, arguments[split + 1:])
+    folder, *arguments = sys.argv[1:]
+    folder = pathlib.Path(folder)
+    lists = [[]]
+    for argument in arguments:
+        if argument == "--":
+            lists.append([])
+        else:
+            lists[-1].append(argument)
+    shots, methods, sizes = lists
+    print_sums(folder, shots, methods, sizes)
+    for method in methods:
+        print_method(folder, method, sizes)
 
 
 if __name__ == "__main__":

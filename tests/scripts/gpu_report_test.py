@@ -50,6 +50,9 @@ class GpuReport(unittest.TestCase):
         self.assertIn("llvmpipe", report)
         self.assertNotIn("Not at", report)
         parts = dict(zip(*[iter(re.split(r"(?m)^## (.*)$", report)[1:])] * 2))
+        for shot in ("vase", "courtyard", "pan"):
+            for method in ("gather", "hybrid", "resolved"):
+                self.assertRegex(parts["Sums"], rf"(?m)^\| {shot} \| {method}( \| {NUMBER}){{3}} \|$")
         passes = {"gather": "gather", "hybrid": "ray reveal", "resolved": "resolve"}
         for method, own in passes.items():
             with self.subTest(method=method):
