@@ -86,7 +86,7 @@ std::span<const char* const> listOtherCreationNames() {
     return kOthers;
 }
 
-std::span<const Entry> listCreations() {
+std::span<const test::LayerEntry> listCreations() {
 #define SHUTTER_CREATE(name)                                                                       \
     SHUTTER_ENTRY(name, (Create<findIndex(#name), &DeviceTable::name>::call)),
     static const std::array sEntries{SHUTTER_CREATIONS(SHUTTER_CREATE)

@@ -2,7 +2,8 @@
 // What stands below the layer: the next layer, or the driver.
 #pragma once
 
-#include <vulkan/vk_layer.h>
+#include "tests/support/vulkan_layer.h"
+
 #include <vulkan/vulkan_core.h>
 
 #include <array>
@@ -120,27 +121,16 @@ DeviceTable& addDevice(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr);
 /// \param handle a device, or a queue or command buffer of it
 [[nodiscard]] DeviceTable& findDevice(const void* handle);
 
-/// A function of this layer.
-struct Entry {
-    const char* name;
-    PFN_vkVoidFunction function;
-};
-
-#define SHUTTER_ENTRY(name, function)                                                              \
-    Entry {                                                                                        \
-        "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function))      \
-    }
-
 // The functions that the layer stands in for, by what they fail at.
 
 /// Other limits, features, extensions and types of memory.
-[[nodiscard]] std::span<const Entry> listReports();
+[[nodiscard]] std::span<const test::LayerEntry> listReports();
 
 /// Allocations that fail, and memory of the reported types.
-[[nodiscard]] std::span<const Entry> listMemoryFaults();
+[[nodiscard]] std::span<const test::LayerEntry> listMemoryFaults();
 
 /// Objects that cannot be made.
-[[nodiscard]] std::span<const Entry> listCreations();
+[[nodiscard]] std::span<const test::LayerEntry> listCreations();
 /// The functions' names without "vk", in the order of DeviceTable::creationCounts.
 [[nodiscard]] std::span<const char* const> listCreationNames();
 
@@ -148,9 +138,9 @@ struct Entry {
 [[nodiscard]] std::span<const char* const> listOtherCreationNames();
 
 /// Submissions, and everything that tells of a lost device.
-[[nodiscard]] std::span<const Entry> listLostDevice();
+[[nodiscard]] std::span<const test::LayerEntry> listLostDevice();
 
 /// Windows that change and go away.
-[[nodiscard]] std::span<const Entry> listSwapchainFaults();
+[[nodiscard]] std::span<const test::LayerEntry> listSwapchainFaults();
 
 } // namespace shutter::faults

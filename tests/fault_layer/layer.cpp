@@ -6,7 +6,6 @@
 #include <array>
 #include <atomic>
 #include <cstdio>
-#include <cstring>
 
 namespace shutter::faults {
 
@@ -16,25 +15,12 @@ namespace {
 std::atomic<uint32_t> sInstanceCount = 0;
 std::atomic<uint32_t> sDeviceCount = 0;
 
-/// The loader's own part of a chain.
-template <class Info> Info* findLink(const void* chain, VkStructureType type) {
-    for (auto* info = static_cast<const Info*>(chain); info;
-         info = static_cast<const Info*>(info->pNext))
-        if (info->sType == type && info->function == VK_LAYER_LINK_INFO)
-            return const_cast<Info*>(info);
-    return nullptr;
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator, VkInstance* instance
 ) {
-    auto* link = findLink<VkLayerInstanceCreateInfo>(
-        info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO
-    );
-    if (!link)
+    const PFN_vkGetInstanceProcAddr getProcAddr = test::takeLink(*info);
+    if (!getProcAddr)
         return VK_ERROR_INITIALIZATION_FAILED;
-    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext; // the next layer looks for its own
     FaultPlan::readAnew();
     if (FaultPlan::get().failsCreation("CreateInstance", ++sInstanceCount))
         return VK_ERROR_OUT_OF_HOST_MEMORY;
@@ -66,21 +52,17 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     const VkAllocationCallbacks* allocator,
     VkDevice* device
 ) {
-    auto* link =
-        findLink<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
-    if (!link)
+    const test::DeviceLink below = test::takeLink(*info);
+    if (!below.ofDevice)
         return VK_ERROR_INITIALIZATION_FAILED;
-    const auto ofInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     if (FaultPlan::get().failsCreation("CreateDevice", ++sDeviceCount))
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     const auto create = reinterpret_cast<PFN_vkCreateDevice>(
-        ofInstance(findInstance(physical).instance, "vkCreateDevice")
+        below.ofInstance(findInstance(physical).instance, "vkCreateDevice")
     );
     const VkResult result = create(physical, info, allocator, device);
     if (result == VK_SUCCESS)
-        noteBounds(*info, addDevice(*device, getProcAddr));
+        noteBounds(*info, addDevice(*device, below.ofDevice));
     return result;
 }
 
@@ -134,25 +116,18 @@ VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCall
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name);
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name);
 
-PFN_vkVoidFunction findEntry(std::span<const Entry> entries, const char* name) {
-    for (const Entry& entry : entries)
-        if (std::strcmp(entry.name, name) == 0)
-            return entry.function;
-    return nullptr;
-}
-
 PFN_vkVoidFunction findOfDevice(const char* name) {
     static const std::array sOwn{
         SHUTTER_ENTRY(GetDeviceProcAddr, getDeviceProcAddr),
         SHUTTER_ENTRY(DestroyDevice, destroyDevice),
     };
     for (const auto entries :
-         {std::span<const Entry>(sOwn),
+         {std::span<const test::LayerEntry>(sOwn),
           listMemoryFaults(),
           listCreations(),
           listLostDevice(),
           listSwapchainFaults()})
-        if (const PFN_vkVoidFunction found = findEntry(entries, name))
+        if (const PFN_vkVoidFunction found = test::findEntry(entries, name))
             return found;
     return nullptr;
 }
@@ -163,15 +138,12 @@ PFN_vkVoidFunction findOfInstance(const char* name) {
         SHUTTER_ENTRY(CreateInstance, createInstance),
         SHUTTER_ENTRY(CreateDevice, createDevice),
     };
-    const PFN_vkVoidFunction own = findEntry(sOwn, name);
-    return own ? own : findEntry(listReports(), name);
+    const PFN_vkVoidFunction own = test::findEntry(sOwn, name);
+    return own ? own : test::findEntry(listReports(), name);
 }
 
 PFN_vkVoidFunction getDeviceProcAddr(VkDevice device, const char* name) {
-    const DeviceTable& table = findDevice(device);
-    const PFN_vkVoidFunction next = table.getProcAddr(device, name);
-    const PFN_vkVoidFunction own = findOfDevice(name);
-    return next && own ? own : next; // what the device lacks stays missing
+    return test::standIn(findDevice(device).getProcAddr(device, name), findOfDevice(name));
 }
 
 PFN_vkVoidFunction getInstanceProcAddr(VkInstance instance, const char* name) {
@@ -179,21 +151,11 @@ PFN_vkVoidFunction getInstanceProcAddr(VkInstance instance, const char* name) {
         return own;
     if (instance == VK_NULL_HANDLE)
         return nullptr;
-    const PFN_vkVoidFunction next = findInstance(instance).getProcAddr(instance, name);
-    const PFN_vkVoidFunction own = findOfDevice(name);
-    return next && own ? own : next;
+    return test::standIn(findInstance(instance).getProcAddr(instance, name), findOfDevice(name));
 }
 
 } // namespace
 
 } // namespace shutter::faults
 
-// VK_LAYER_EXPORT is gone from newer headers.
-extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
-vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
-    version->loaderLayerInterfaceVersion = CURRENT_LOADER_LAYER_INTERFACE_VERSION;
-    version->pfnGetInstanceProcAddr = shutter::faults::getInstanceProcAddr;
-    version->pfnGetDeviceProcAddr = shutter::faults::getDeviceProcAddr;
-    version->pfnGetPhysicalDeviceProcAddr = nullptr;
-    return VK_SUCCESS;
-}
+SHUTTER_LAYER(shutter::faults::getInstanceProcAddr, shutter::faults::getDeviceProcAddr)

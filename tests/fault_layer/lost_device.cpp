@@ -69,7 +69,7 @@ struct Submit<next> {
 
 } // namespace
 
-std::span<const Entry> listLostDevice() {
+std::span<const test::LayerEntry> listLostDevice() {
 #define SHUTTER_UNLESS_LOST(name) SHUTTER_ENTRY(name, UnlessLost<&DeviceTable::name>::call)
     static const std::array sEntries{
         SHUTTER_ENTRY(QueueSubmit, Submit<&DeviceTable::QueueSubmit>::call),

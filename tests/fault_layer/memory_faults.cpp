@@ -104,7 +104,7 @@ struct AskNeeds<next> {
 
 } // namespace
 
-std::span<const Entry> listMemoryFaults() {
+std::span<const test::LayerEntry> listMemoryFaults() {
 #define SHUTTER_ASK_NEEDS(name) SHUTTER_ENTRY(name, AskNeeds<&DeviceTable::name>::call)
     static const std::array sEntries{
         SHUTTER_ENTRY(AllocateMemory, allocateMemory),

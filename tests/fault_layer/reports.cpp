@@ -182,7 +182,7 @@ getMemory2(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties2* memory) {
 
 } // namespace
 
-std::span<const Entry> listReports() {
+std::span<const test::LayerEntry> listReports() {
     static const std::array sEntries{
         SHUTTER_ENTRY(EnumerateDeviceExtensionProperties, enumerateExtensions),
         SHUTTER_ENTRY(GetPhysicalDeviceFeatures, getFeatures),

@@ -74,7 +74,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKH
 
 } // namespace
 
-std::span<const Entry> listSwapchainFaults() {
+std::span<const test::LayerEntry> listSwapchainFaults() {
     static const std::array sEntries{
         SHUTTER_ENTRY(AcquireNextImageKHR, acquireNextImage),
         SHUTTER_ENTRY(BeginCommandBuffer, beginCommandBuffer),

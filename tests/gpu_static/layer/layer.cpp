@@ -13,25 +13,12 @@ namespace {
 
 Next sNext;
 
-/// The loader's own part of a chain.
-template <class Info> Info* findLink(const void* chain, VkStructureType type) {
-    for (auto* info = static_cast<const Info*>(chain); info;
-         info = static_cast<const Info*>(info->pNext))
-        if (info->sType == type && info->function == VK_LAYER_LINK_INFO)
-            return const_cast<Info*>(info);
-    return nullptr;
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator, VkInstance* instance
 ) {
-    auto* link = findLink<VkLayerInstanceCreateInfo>(
-        info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO
-    );
-    if (!link)
+    const PFN_vkGetInstanceProcAddr getProcAddr = test::takeLink(*info);
+    if (!getProcAddr)
         return VK_ERROR_INITIALIZATION_FAILED;
-    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext; // the next layer looks for its own
     const auto create =
         reinterpret_cast<PFN_vkCreateInstance>(getProcAddr(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = create(info, allocator, instance);
@@ -49,13 +36,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     const VkAllocationCallbacks* allocator,
     VkDevice* device
 ) {
-    auto* link =
-        findLink<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
-    if (!link)
+    const test::DeviceLink below = test::takeLink(*info);
+    if (!below.ofDevice)
         return VK_ERROR_INITIALIZATION_FAILED;
-    const auto ofInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
 
     std::vector<const char*> extensions(
         info->ppEnabledExtensionNames, info->ppEnabledExtensionNames + info->enabledExtensionCount
@@ -71,37 +54,28 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     extended.ppEnabledExtensionNames = extensions.data();
 
     const auto create =
-        reinterpret_cast<PFN_vkCreateDevice>(ofInstance(sNext.instance, "vkCreateDevice"));
+        reinterpret_cast<PFN_vkCreateDevice>(below.ofInstance(sNext.instance, "vkCreateDevice"));
     const VkResult result = create(physical, &extended, allocator, device);
     if (result != VK_SUCCESS)
         return result;
     sNext.device = *device;
-    sNext.getDeviceProcAddr = getProcAddr;
+    sNext.getDeviceProcAddr = below.ofDevice;
 #define SHUTTER_LOAD(name)                                                                         \
-    sNext.name = reinterpret_cast<PFN_vk##name>(getProcAddr(*device, "vk" #name));
+    sNext.name = reinterpret_cast<PFN_vk##name>(below.ofDevice(*device, "vk" #name));
     SHUTTER_NEXT_OF_DEVICE(SHUTTER_LOAD)
 #undef SHUTTER_LOAD
     return result;
 }
 
-PFN_vkVoidFunction findEntry(std::span<const Entry> entries, const char* name) {
-    for (const Entry& entry : entries)
-        if (std::strcmp(entry.name, name) == 0)
-            return entry.function;
-    return nullptr;
-}
-
 PFN_vkVoidFunction findOfDevice(const char* name) {
-    const PFN_vkVoidFunction pipelines = findEntry(listPipelines(), name);
-    return pipelines ? pipelines : findEntry(listSubmissions(), name);
+    const PFN_vkVoidFunction pipelines = test::findEntry(listPipelines(), name);
+    return pipelines ? pipelines : test::findEntry(listSubmissions(), name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
         return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
-    const PFN_vkVoidFunction below = sNext.getDeviceProcAddr(device, name);
-    const PFN_vkVoidFunction own = findOfDevice(name);
-    return below && own ? own : below; // what the device lacks stays missing
+    return test::standIn(sNext.getDeviceProcAddr(device, name), findOfDevice(name));
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL
@@ -112,13 +86,11 @@ getInstanceProcAddr(VkInstance instance, const char* name) {
         SHUTTER_ENTRY(CreateInstance, createInstance),
         SHUTTER_ENTRY(CreateDevice, createDevice),
     };
-    if (const PFN_vkVoidFunction own = findEntry(sOwn, name))
+    if (const PFN_vkVoidFunction own = test::findEntry(sOwn, name))
         return own;
     if (instance == VK_NULL_HANDLE)
         return nullptr;
-    const PFN_vkVoidFunction below = sNext.getInstanceProcAddr(instance, name);
-    const PFN_vkVoidFunction own = findOfDevice(name);
-    return below && own ? own : below;
+    return test::standIn(sNext.getInstanceProcAddr(instance, name), findOfDevice(name));
 }
 
 } // namespace
@@ -129,12 +101,4 @@ const Next& next() {
 
 } // namespace shutter::gpu_static
 
-// VK_LAYER_EXPORT is gone from newer headers.
-extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
-vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
-    version->loaderLayerInterfaceVersion = CURRENT_LOADER_LAYER_INTERFACE_VERSION;
-    version->pfnGetInstanceProcAddr = shutter::gpu_static::getInstanceProcAddr;
-    version->pfnGetDeviceProcAddr = shutter::gpu_static::getDeviceProcAddr;
-    version->pfnGetPhysicalDeviceProcAddr = nullptr;
-    return VK_SUCCESS;
-}
+SHUTTER_LAYER(shutter::gpu_static::getInstanceProcAddr, shutter::gpu_static::getDeviceProcAddr)

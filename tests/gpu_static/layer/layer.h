@@ -2,7 +2,8 @@
 // What stands below the layer, and the functions that it stands in for.
 #pragma once
 
-#include <vulkan/vk_layer.h>
+#include "tests/support/vulkan_layer.h"
+
 #include <vulkan/vulkan_core.h>
 
 #include <span>
@@ -34,21 +35,10 @@ struct Next {
 
 [[nodiscard]] const Next& next();
 
-/// A function of this layer.
-struct Entry {
-    const char* name;
-    PFN_vkVoidFunction function;
-};
-
-#define SHUTTER_ENTRY(name, function)                                                              \
-    Entry {                                                                                        \
-        "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function))      \
-    }
-
 /// Pipelines, of which the compiler's statistics are written down.
-[[nodiscard]] std::span<const Entry> listPipelines();
+[[nodiscard]] std::span<const test::LayerEntry> listPipelines();
 
 /// Submissions, which have ended at once, and all that waits for them.
-[[nodiscard]] std::span<const Entry> listSubmissions();
+[[nodiscard]] std::span<const test::LayerEntry> listSubmissions();
 
 } // namespace shutter::gpu_static

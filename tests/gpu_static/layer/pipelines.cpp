@@ -245,7 +245,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createRays(
 
 } // namespace
 
-std::span<const Entry> listPipelines() {
+std::span<const test::LayerEntry> listPipelines() {
     static const std::array sEntries{
         SHUTTER_ENTRY(CreateShaderModule, createModule),
         SHUTTER_ENTRY(SetDebugUtilsObjectNameEXT, setName),

@@ -53,7 +53,7 @@ VKAPI_ATTR VkResult VKAPI_CALL readQueries(
 
 } // namespace
 
-std::span<const Entry> listSubmissions() {
+std::span<const test::LayerEntry> listSubmissions() {
     static const std::array sEntries{
         SHUTTER_ENTRY(QueueSubmit2, submit),
         SHUTTER_ENTRY(WaitSemaphores, wait),
