@@ -142,6 +142,8 @@ scene::Assets makeAssets(uint32_t textureCount) {
 }
 
 TEST_F(Memory, ManyTexturesShareBlocksOfMemoryAndSamplers) {
+    if (gpu_scene::findTextureLimit(device().limits()).count < 240)
+        GTEST_SKIP() << device().info().name << " takes fewer textures";
     const scene::Assets assets = makeAssets(120);
     const uint64_t allocations = device().allocationCount();
     const uint64_t submissions = device().completedValue();
