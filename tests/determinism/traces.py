@@ -9,9 +9,12 @@ import subprocess
 import tempfile
 
 PINS = pathlib.Path(__file__).with_name("pins.json")
+# lavapipe's; that of another driver, which VK_DRIVER_FILES then names.
+DEVICE = os.environ.get("SHUTTER_PIN_DEVICE", "llvmpipe")
 # Small, and yet every pass of every method runs in it.
-SHOT = ("--size", "96x54", "--device", "llvmpipe", "--exposure", "0.05")
+SHOT = ("--size", "96x54", "--device", DEVICE, "--exposure", "0.05")
 SAMPLES = {"accumulate": "4", "truth": "2", "denoised": "1"}
+NEED_RAYS = ("hybrid", "adaptive", "denoised", "truth")
 
 
 def describe_processor():
@@ -27,10 +30,26 @@ def describe_processor():
     return f"{found.get('model name', 'unknown')} {digest[:8]}"
 
 
+def describe_library(driver):
+    """A digest of the driver's library, where its name has no version."""
+    path = pathlib.Path(os.environ.get("VK_DRIVER_FILES", ""))
+    if not driver.startswith("SwiftShader") or not path.is_file():
+        return ""
+    library = path.parent / json.loads(path.read_text(encoding="utf-8"))["ICD"]["library_path"]
+    return f" {library.name} {hashlib.sha256(library.read_bytes()).hexdigest()[:8]}"
+
+
+def info(executable, what):
+    return subprocess.run([executable, "info", what], capture_output=True, text=True,
+                          check=True).stdout
+
+
 def list_methods(executable):
-    done = subprocess.run([executable, "info", "--methods"], capture_output=True, text=True,
-                          check=True)
-    return done.stdout.split()
+    """Those that the device can run."""
+    traces_none = any(DEVICE in line and line.endswith("rays: none")
+                      for line in info(executable, "--devices").splitlines())
+    return [method for method in info(executable, "--methods").split()
+            if not (traces_none and method in NEED_RAYS)]
 
 
 def render(executable, assets, method, picture, *more, environment=()):
@@ -48,7 +67,9 @@ def draw(executable, assets, method, *more, environment=()):
         render(executable, assets, method, f"{folder}/picture.exr", "--hash-passes", trace, *more,
                environment=environment)
         found = json.loads(trace.read_text(encoding="utf-8"))
-    return {**found, "driver": f"{found['driver']} on {describe_processor()}"}
+    driver = found["driver"].strip()
+    return {**found,
+            "driver": f"{driver}{describe_library(driver)} on {describe_processor()}"}
 
 
 def place(row):
