@@ -131,11 +131,13 @@ SHUTTER_INLINE vec2 findTexel(ShadowCascade cascade, vec3 point) {
     return vec2(point.x, point.y) * cascade.texelsPerMetre + cascade.corner;
 }
 
-/// Whether the map has the texels around a point, and still has them if it is lifted.
+/// Whether the map has the texels around a point, and still has them if it is lifted. NaN: it has not.
 SHUTTER_INLINE bool hasPoint(ShadowCascade cascade, vec3 point) {
     // Off its surface it moves by 0.55 texels at most: see normalOffset().
-    return coversFilter(findTexel(cascade, point) + vec2(1.0f), float(cascade.sizePx)) &&
-           coversFilter(findTexel(cascade, point) - vec2(1.0f), float(cascade.sizePx));
+    vec2 texel = findTexel(cascade, point);
+    float margin = kShadowFilterTexels + 1.0f;
+    float most = float(cascade.sizePx) - margin;
+    return texel.x >= margin && texel.y >= margin && texel.x <= most && texel.y <= most;
 }
 
 /// Where a receiver that the map has is looked up, lifted off its surface.

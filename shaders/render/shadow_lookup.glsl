@@ -137,10 +137,8 @@ vec3 transformDirection(vec4 rows[3], vec3 d) {
 float passCascades(ShadowRef shadows, ShadowLight own, Receiver receiver) {
     ShadowCascadeTable cascades = ShadowCascadeTable(shadows.value.cascades);
     vec3 point = transformDirection(own.axes, receiver.position);
-    uint found = own.mapCount;
-    for (uint i = own.mapCount; i > 0u; --i) {
-        if (hasPoint(cascades.rows[own.firstMap + i - 1u], point)) found = i - 1u;
-    }
+    uint found = 0u;
+    while (found < own.mapCount && !hasPoint(cascades.rows[own.firstMap + found], point)) ++found;
     if (found == own.mapCount) return 1.0f;
     ShadowCascade cascade = cascades.rows[own.firstMap + found];
     ShadowPlace place =
