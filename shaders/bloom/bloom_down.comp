@@ -18,15 +18,20 @@ layout(binding = 1, rgba16f) uniform writeonly image2D uHalf;
 /// What the group's pixels see of the source. Texels are fetched one by one, as the threshold is one of
 /// texels and not of their means.
 shared vec3 tile[kTile * kTile];
+shared uint litThreads; // not 0: the tile has light
 
-void fillTile() {
+/// \return whether any of the thread's texels has light
+bool fillTile() {
     ivec2 corner = 2 * kGroup * ivec2(gl_WorkGroupID.xy) - 2;
-    vec2 size = vec2(params.sourcePx);
+    ivec2 last = ivec2(params.sourcePx) - 1;
+    bool isLit = false;
     for (uint i = gl_LocalInvocationIndex; i < uint(kTile * kTile); i += uint(kGroup * kGroup)) {
-        vec2 texel = vec2(corner + ivec2(i % kTile, i / kTile)) + 0.5f;
-        vec3 color = textureLod(uSource, clamp(texel, vec2(0.5f), size - 0.5f) / size, 0.0f).rgb;
+        ivec2 texel = clamp(corner + ivec2(i % kTile, i / kTile), ivec2(0), last);
+        vec3 color = texelFetch(uSource, texel, 0).rgb;
         tile[i] = findHighlight(color, params.threshold, params.knee);
+        isLit = isLit || tile[i] != vec3(0.0f);
     }
+    return isLit;
 }
 
 /// The 13 taps are means of the four texels that meet at a corner: of the inner box's corners, and of
@@ -47,9 +52,14 @@ vec3 filterTile(uvec2 local) {
 }
 
 void main() {
-    fillTile();
+    if (gl_LocalInvocationIndex == 0u) litThreads = 0u;
+    barrier();
+    if (fillTile()) atomicOr(litThreads, 1u);
     barrier();
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
-    imageStore(uHalf, ivec2(pixel), vec4(filterTile(gl_LocalInvocationID.xy), 1.0f));
+    // Most of a picture is no highlight: nothing filtered is nothing.
+    vec3 light = vec3(0.0f);
+    if (litThreads != 0u) light = filterTile(gl_LocalInvocationID.xy);
+    imageStore(uHalf, ivec2(pixel), vec4(light, 1.0f));
 }

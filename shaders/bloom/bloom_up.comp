@@ -34,8 +34,7 @@ vec3 spreadCoarse(vec2 at) {
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
-    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx);
-    vec4 fine = textureLod(uFine, uv, 0.0f);
+    vec4 fine = texelFetch(uFine, ivec2(pixel), 0);
     vec3 scattered = findHighlight(fine.rgb, params.threshold, params.knee);
     vec3 spread = spreadCoarse(0.5f * (vec2(pixel) + 0.5f));
     vec3 mixed = fine.rgb + params.share * (spread - scattered);
