@@ -136,8 +136,9 @@ const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     gpu::ImageDesc desc;
     desc.width = sizePx.x;
     desc.height = sizePx.y;
+    // Written by a pass or a transfer (SurfaceLayers), and read back by those who want to see it.
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
+                 VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     raster.color = gpu::Image(mDevice, "kept colour", desc);
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;

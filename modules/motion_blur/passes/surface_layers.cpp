@@ -36,6 +36,29 @@ gpu::ComputePipelineDesc describePackKept() {
     return desc;
 }
 
+/// Copies the colour as it is before the blur.
+graph::ImageHandle
+addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle kept) {
+    struct Data {
+        graph::ImageHandle source;
+        graph::ImageHandle target;
+    };
+
+    return graph
+        .addPass<Data>(
+            "keep colour",
+            graph::PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.source = builder.read(color, Access::TransferRead);
+                data.target = builder.write(kept, Access::TransferWrite);
+            },
+            [](const Data& data, graph::PassContext& context) {
+                copyWhole(context, data.source, data.target);
+            }
+        )
+        .target;
+}
+
 graph::ImageHandle createSurface(graph::Graph& graph, const PassParams& params) {
     return graph.createImage("surface", {params.sizePx.x, params.sizePx.y, kSurfaceFormat});
 }
@@ -50,8 +73,9 @@ importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLa
 } // namespace
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mPack(device, describePack(true)),
-      mPackKept(device, describePackKept()), mPackWhole(device, describePack(false)) {}
+    : mKeepsByTransfer(isSoftware(device)), mSampler(device.nearestSampler()),
+      mPack(device, describePack(true)), mPackKept(device, describePackKept()),
+      mPackWhole(device, describePack(false)) {}
 
 SurfaceLayersOutputs SurfaceLayers::add(
     graph::Graph& graph, const MotionBlurInputs& inputs, const PassParams& params, bool wantLast
@@ -76,7 +100,12 @@ SurfaceLayersOutputs SurfaceLayers::add(
     if (history && inputs.instantMotions->keepsRaster) {
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
-        outputs.raster = addPackKept(graph, inputs, target, params);
+        if (mKeepsByTransfer)
+            outputs.raster = {
+                addKeepColor(graph, inputs.color, target.color),
+                addPack(graph, mPack, inputs.motionDepth, inputs.entityId, target.surface, params)};
+        else
+            outputs.raster = addPackKept(graph, inputs, target, params);
         graph.markOutput(outputs.raster.color);
         graph.markOutput(outputs.raster.surface);
     } else {
