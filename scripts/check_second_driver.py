@@ -40,7 +40,7 @@ PROGRAMS = {"test_gpu": "*", "test_gpu_ui": "*", "test_image": "*",
 # the depth of the sky that hides particles at instants, and light beyond 65,504.
 BROKEN = ("ParticleLaw.ACameraThatPansBlursThemAsItDoesTheWorld",
           "ParticleLaw.LightThatThePictureCannotHoldStaysFinite")
-# Not run: up to minutes each, most of which pass while the driver compiles `resolved` for each picture anew.
+# Not run: up to minutes each, most of them spent while the driver compiles `resolved` for each picture anew.
 SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.WhatIsPreparedAhead*", "InstantNoises.*",
         "MethodSettingsLaw.*", "ParticleLaw.*Instant*", "ParticleLaw.OverGlass*", "PhaseLaw.*",
         "PictureDrawerTest.AFrameInWhichSomethingJumps*", "Resolved*", "SecondRaster.*")
@@ -89,13 +89,15 @@ def compare_pictures(folder):
     for method in METHODS:
         began = time.monotonic()
         found = measure(method, folder)
+        seconds = time.monotonic() - began
         if isinstance(found, str):
+            print_row(f"picture by {method}", 1, 0, 0, seconds)
             yield found
             continue
-        print_row(f"picture by {method}, {found:.2f} dB", 1, 1, 0, time.monotonic() - began)
         if method == "sharp":
             sharp = found
         bound = SHARP_DB if sharp is None or method == "sharp" else sharp - LOSS_DB
+        print_row(f"picture by {method}, {found:.2f} dB", 1, int(found >= bound), 0, seconds)
         if found < bound:
             yield f"{method} is {found:.2f} dB from lavapipe's picture, less than {bound:.2f}"
 

@@ -12,8 +12,9 @@
 
 layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
 layout(constant_id = 1) const bool kHasParts = false;     // something deforms in this frame's raster
-layout(constant_id = 2) const uint kLanes = 1u; // threads of a block, which share its instants; a power of 4
-layout(constant_id = 3) const uint kBlocksAcross = kGroupSize; // blocks of a group, across and down
+layout(constant_id = 2) const uint kBlocksAcross = kGroupSize; // blocks of a group, across and down
+/// Threads of a block, which share its instants.
+const uint kLanes = kGroupSize * kGroupSize / (kBlocksAcross * kBlocksAcross);
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {

@@ -7,7 +7,7 @@
 #include "motion_blur/resolved.glsl"
 #include "motion_blur/resolved_parts_shared.h"
 
-/// What devices have at least is what the candidates of so many tiles take: 16 KiB.
+/// So many tiles' candidates fill 16 KiB, the shared memory that every device has.
 const uint kThreadRows = 4u;
 const uint kThreads = kGroupSize * kThreadRows;
 
@@ -20,7 +20,7 @@ layout(binding = 0, scalar) buffer RasterCandidates { TileCandidates uRaster[]; 
 layout(binding = 1, scalar) buffer LastCandidates { TileCandidates uLast[]; };
 layout(binding = 2, scalar) buffer SecondCandidates { TileCandidates uSecond[]; };
 
-/// A tile's candidates while they are sorted, by slot and thread: memory on the device is far away.
+/// A tile's candidates while they are sorted, by slot and thread: device memory is slow to reach.
 shared uint sKeys[kCandidatesPerTile][kThreads];
 shared uint sNearest[kCandidatesPerTile][kThreads];
 shared uint sFarthestInverted[kCandidatesPerTile][kThreads];
@@ -57,10 +57,7 @@ void writeParts(uint layer, uint tile, uint index, uint bits) {
 }
 
 /// What candidates are sorted by: the sky is behind everything, and equals have one order.
-uvec2 rankOf(uint slot, uint thread) {
-    uint key = sKeys[slot][thread];
-    return uvec2(key == kSkyKey ? kNoKey : sNearest[slot][thread], key);
-}
+uvec2 rankOf(uint key, uint nearest) { return uvec2(key == kSkyKey ? kNoKey : nearest, key); }
 
 bool isBefore(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
@@ -70,9 +67,10 @@ uint sortCandidates(uint layer, uint tile, uint thread) {
     [[dont_unroll]] for (; end < kCandidatesPerTile; ++end) {
         Candidate moved = readCandidate(layer, tile, end);
         if (moved.key == kNoKey) break;
-        uvec2 rank = uvec2(moved.key == kSkyKey ? kNoKey : moved.nearest, moved.key);
+        uvec2 rank = rankOf(moved.key, moved.nearest);
         uint slot = end;
-        [[dont_unroll]] for (; slot > 0u && isBefore(rank, rankOf(slot - 1u, thread)); --slot) {
+        [[dont_unroll]] for (; slot > 0u; --slot) {
+            if (!isBefore(rank, rankOf(sKeys[slot - 1u][thread], sNearest[slot - 1u][thread]))) break;
             sKeys[slot][thread] = sKeys[slot - 1u][thread];
             sNearest[slot][thread] = sNearest[slot - 1u][thread];
             sFarthestInverted[slot][thread] = sFarthestInverted[slot - 1u][thread];

@@ -10,7 +10,7 @@
 #include "motion_blur/tile_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y_id = 0) in;
-layout(constant_id = 0) const uint kRows = kGroupSize; // of a group, as in tile_max.comp
+layout(constant_id = 1) const uint kRows = kGroupSize; // of a group
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform sampler2D uRevealMotionDepth;

@@ -41,7 +41,7 @@ void take(vec2 uv) {
     ranges.depth = vec2(min(ranges.depth.x, texel.z), max(ranges.depth.y, texel.z));
 }
 
-/// What another thread has found is taken over.
+/// Takes over what another thread has found.
 void take(Ranges other) {
     ranges.longest = longerMotion(ranges.longest, other.longest);
     ranges.least = min(ranges.least, other.least);

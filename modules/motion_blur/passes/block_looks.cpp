@@ -24,25 +24,20 @@ gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
     return desc;
 }
 
-/// Threads of a block and blocks of a group, across and down: on GPUs a thread for each instant,
-/// since few blocks move and the instants of one take longest; software devices have no threads to
-/// spare.
-struct Lanes {
-    uint32_t perBlock;
-    uint32_t blocksAcross;
-};
-
-Lanes chooseLanes(const gpu::Device& device) {
-    return isSoftware(device) ? Lanes{1, shader::kGroupSize} : Lanes{16, shader::kGroupSize / 4};
+/// Threads along each side of a block: on GPUs about as many in all as a block has instants, since
+/// few blocks move and the instants of one take longest; software devices have no threads to spare.
+uint32_t countThreadsAcross(const gpu::Device& device) {
+    return isSoftware(device) ? 1 : 4;
 }
 
 gpu::ComputePipelineDesc describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
-    const Lanes lanes = chooseLanes(device);
     desc.specialization = {
-        sortsUniform ? 1u : 0u, hasParts ? 1u : 0u, lanes.perBlock, lanes.blocksAcross};
+        sortsUniform ? 1u : 0u,
+        hasParts ? 1u : 0u,
+        shader::kGroupSize / countThreadsAcross(device)};
     desc.subgroupSize = kDivergingSubgroup;
     return desc;
 }
@@ -185,10 +180,8 @@ BlockLookOutputs BlockLooks::addFind(
                     bindings.buffer(resources.buffer(buffer));
                 const PassParams own = withCrowds(params, resources, data.tiles.crowds);
                 const gpu::LazyPipeline& pipeline = data.tiles.parts.isValid() ? mFindParts : mFind;
-                const uint32_t groups = shader::kGroupSize / chooseLanes(mDevice).blocksAcross;
-                dispatchPixels(
-                    context, pipeline.get(), bindings, own, countBlocks(params) * groups
-                );
+                const glm::uvec2 threads = countBlocks(params) * countThreadsAcross(mDevice);
+                dispatchPixels(context, pipeline.get(), bindings, own, threads);
             }
         )
         .sorted;

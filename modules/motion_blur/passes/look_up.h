@@ -57,8 +57,8 @@ class SearchPipelines {
     [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool hasCrowds) const;
 
   private:
-    /// Mesa's compiler for software makes a search of `courtyard` that takes 28.7 ms without the
-    /// code for what deforms, and 25.4 with it.
+    /// On software devices: Mesa's compiler makes a search of `courtyard` that takes 28.7 ms
+    /// without the code for what deforms, and 25.4 with it.
     bool mAlwaysHasParts;
     std::vector<gpu::LazyPipeline> mPipelines;
 };

@@ -6,7 +6,9 @@
 #include "spirv/motion_blur/reveal_view.comp.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/passes/tile_motion.h"
 
+#include <algorithm>
 #include <array>
 
 namespace shutter::motion_blur {
@@ -15,13 +17,15 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
+gpu::ComputePipelineDesc describeRevealTileMax(const gpu::Device& device) {
     gpu::ComputePipelineDesc desc = describePass(
         "tile max of reveal",
         motion_blur_reveal_tile_max_comp,
         {kSampled, kSampled, kSampled, kStorage, kBuffer}
     );
-    desc.specialization = {isSoftware(device) ? shader::kGroupSize : 32u};
+    // Few tiles have masked pixels: a software device takes a whole group for each.
+    const uint32_t rows = std::max(countTileRows(device), shader::kGroupSize);
+    desc.specialization = {rows, rows};
     return desc;
 }
 
@@ -35,7 +39,7 @@ struct TileData {
 } // namespace
 
 RevealedLayerPasses::RevealedLayerPasses(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mTileMax(device, describeTileMax(device)),
+    : mSampler(device.nearestSampler()), mTileMax(device, describeRevealTileMax(device)),
       mNeighbourMax(
           device,
           describePass(

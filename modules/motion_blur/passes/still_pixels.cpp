@@ -14,6 +14,12 @@ namespace {
 
 using graph::Access;
 
+/// \param given invalid: an image of its own
+graph::ImageHandle
+findTarget(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle given) {
+    return given.isValid() ? given : graph.createImage("blurred", graph.describeImage(color));
+}
+
 } // namespace
 
 StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
@@ -48,10 +54,9 @@ graph::ImageHandle StillPixels::begin(
 ) const {
     if (!mListsStill || by != StillPixelsBy::WholeCopy)
         return begin(graph, color, wholeTarget, by);
-    const graph::ImageHandle target =
-        wholeTarget.isValid() ? wholeTarget
-                              : graph.createImage("blurred", graph.describeImage(color));
-    return mStill.add(graph, std::array{color}, sorted, target, params);
+    return mStill.add(
+        graph, std::array{color}, sorted, findTarget(graph, color, wholeTarget), params
+    );
 }
 
 graph::ImageHandle StillPixels::begin(
@@ -59,11 +64,9 @@ graph::ImageHandle StillPixels::begin(
 ) const {
     if (by == StillPixelsBy::InPlace)
         return color;
-    const bool isGiven = by == StillPixelsBy::WholeCopy && wholeTarget.isValid();
-    const graph::ImageHandle target =
-        isGiven ? wholeTarget : graph.createImage("blurred", graph.describeImage(color));
     if (by == StillPixelsBy::CopyBack)
-        return target;
+        return findTarget(graph, color, {});
+    const graph::ImageHandle target = findTarget(graph, color, wholeTarget);
 
     struct Data {
         graph::ImageHandle source;

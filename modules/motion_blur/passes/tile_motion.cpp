@@ -7,6 +7,9 @@
 
 #include "modules/motion_blur/passes/dispatch.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace shutter::motion_blur {
 
 namespace {
@@ -16,14 +19,22 @@ using graph::Access;
 gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
     gpu::ComputePipelineDesc desc =
         describePass("tile max", motion_blur_tile_max_comp, {kSampled, kStorage, kStorage});
-    // A software device runs a group's threads in turn and adds up what each found in one of them:
-    // as few as it runs at once. Elsewhere as many as keep a processor busy.
-    const uint32_t threads = shader::kTileColumns * (isSoftware(device) ? 1u : 32u);
+    const uint32_t threads = shader::kTileColumns * countTileRows(device);
     desc.specialization = {threads, threads};
     return desc;
 }
 
 } // namespace
+
+uint32_t countTileRows(const gpu::Device& device) {
+    if (isSoftware(device))
+        return 1;
+    constexpr uint32_t kMostRows = 32;
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const uint32_t threads =
+        std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+    return std::min(kMostRows, std::bit_floor(threads / shader::kTileColumns));
+}
 
 TileMotion::TileMotion(gpu::Device& device)
     : mSampler(device.nearestSampler()), mTileMax(device, describeTileMax(device)),
