@@ -246,7 +246,7 @@ PlaneMap findLook(BlockSearch search, uint instant) {
     InstantMotionTable table = InstantMotionTable(search.layer.motions);
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
     Shared seen = findShared(search.tile, slots, search.perspective);
-    // What stands still is no candidate: it may hide some of what moves.
+    // What is static is no candidate: it may hide some of what moves.
     if (search.layer.isStill != 0u && getPlane(search.block).mover != seen.mover)
         seen.mover = kNoMover;
     PlaneMap map;

@@ -45,7 +45,7 @@ float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : dep
 /// \param x the pixel that sees them
 bool isNearer(Seen a, Seen b, vec2 x) {
     if (a.depth != b.depth) return a.depth < b.depth;
-    // Coplanar: what has moved is in sight over what stands still. It goes by places alone, so that the
+    // Coplanar: what has moved is in sight over what is static. It goes by places alone, so that the
     // rows of entities make no difference.
     float wayA = distance(a.at, x);
     float wayB = distance(b.at, x);
@@ -234,7 +234,7 @@ struct PixelSearch {
     LayerMotion raster;
     LayerMotion second;
     LayerMotion last;
-    Seen still; // what stands still there, at all instants
+    Seen still; // what is static there, at all instants
     Seen secondStill;
     Seen lastStill;
 };
@@ -305,7 +305,7 @@ void searchLayer(
     }
 }
 
-/// What stands still at the pixel itself in the layer.
+/// What is static at the pixel itself in the layer.
 Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
     Probe surface = fetchSurface(index, pixel);
     return Seen(

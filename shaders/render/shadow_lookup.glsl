@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of a light reaches a point: by maps of what stands still and of what moves, or as a ray
+// How much of a light reaches a point: by maps of what is static and of what moves, or as a ray
 // has found it.
 #ifndef SHUTTER_SHADOW_LOOKUP_GLSL
 #define SHUTTER_SHADOW_LOOKUP_GLSL

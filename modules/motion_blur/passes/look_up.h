@@ -85,7 +85,7 @@ class LookUp {
         PassParams& params,
         SharedPasses& shared);
 
-    /// What the method returns, after its last pass: adds what stands still to the picture, and
+    /// What the method returns, after its last pass: adds what is static to the picture, and
     /// copies the counters for the CPU.
     [[nodiscard]] MotionBlurOutputs
     end(graph::Graph& graph,

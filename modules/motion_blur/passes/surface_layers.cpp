@@ -7,8 +7,6 @@
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
-#include <array>
-
 namespace shutter::motion_blur {
 
 namespace {
@@ -27,12 +25,9 @@ gpu::ComputePipelineDesc describePack(bool skipsStill) {
 }
 
 gpu::ComputePipelineDesc describePackKept() {
-    gpu::ComputePipelineDesc desc = describePass(
-        "pack surface",
-        motion_blur_resolved_surface_kept_comp,
-        {kSampled, kSampled, kStorage, kSampled, kStorage}
-    );
-    desc.specialization = {1u};
+    gpu::ComputePipelineDesc desc = describePack(true);
+    desc.spirv = motion_blur_resolved_surface_kept_comp;
+    desc.interface.bindings.insert(desc.interface.bindings.end(), {kSampled, kStorage});
     return desc;
 }
 
@@ -82,60 +77,50 @@ SurfaceLayersOutputs SurfaceLayers::add(
 ) const {
     RasterHistory* const history = inputs.instantMotions->history;
     SurfaceLayersOutputs outputs;
-    outputs.raster.color = inputs.color;
     const auto& lent = inputs.instantMotions->lent;
+    const auto pack = [&](graph::ImageHandle color,
+                          const gpu::LazyPipeline& pipeline,
+                          graph::ImageHandle motionDepth,
+                          graph::ImageHandle entityId) {
+        const SurfaceLayer target{{}, createSurface(graph, params)};
+        const PackInputs raster{motionDepth, entityId, {}};
+        return SurfaceLayer{color, addPack(graph, pipeline, raster, target, params).surface};
+    };
     if (wantLast && lent)
-        outputs.last = {
-            lent->color,
-            addPack(
-                graph,
-                mPack,
-                lent->motionDepth,
-                lent->entityId,
-                createSurface(graph, params),
-                params
-            )};
+        outputs.last = pack(lent->color, mPack, lent->motionDepth, lent->entityId);
     else if (wantLast)
         outputs.last = importRaster(graph, history->newest(), kKeptLayout);
     if (history && inputs.instantMotions->keepsRaster) {
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
-        if (mKeepsByTransfer)
-            outputs.raster = {
-                addKeepColor(graph, inputs.color, target.color),
-                addPack(graph, mPack, inputs.motionDepth, inputs.entityId, target.surface, params)};
-        else
-            outputs.raster = addPackKept(graph, inputs, target, params);
+        if (mKeepsByTransfer) {
+            const auto kept = addKeepColor(graph, inputs.color, target.color);
+            const PackInputs raster{inputs.motionDepth, inputs.entityId, {}};
+            outputs.raster = {kept, addPack(graph, mPack, raster, target, params).surface};
+        } else {
+            const PackInputs raster{inputs.motionDepth, inputs.entityId, inputs.color};
+            outputs.raster = addPack(graph, mPackKept, raster, target, params);
+        }
         graph.markOutput(outputs.raster.color);
         graph.markOutput(outputs.raster.surface);
     } else {
-        outputs.raster.surface = addPack(
-            graph, mPack, inputs.motionDepth, inputs.entityId, createSurface(graph, params), params
-        );
+        outputs.raster = pack(inputs.color, mPack, inputs.motionDepth, inputs.entityId);
     }
     if (const auto& second = inputs.instantMotions->second)
-        outputs.second = {
-            second->color,
-            addPack(
-                graph,
-                mPackWhole,
-                second->motionDepth,
-                second->entityId,
-                createSurface(graph, params),
-                params
-            )};
+        outputs.second = pack(second->color, mPackWhole, second->motionDepth, second->entityId);
     return outputs;
 }
 
-SurfaceLayer SurfaceLayers::addPackKept(
+SurfaceLayer SurfaceLayers::addPack(
     graph::Graph& graph,
-    const MotionBlurInputs& inputs,
+    const gpu::LazyPipeline& pack,
+    const PackInputs& raster,
     const SurfaceLayer& target,
     const PassParams& params
 ) const {
     struct Data {
-        std::array<graph::ImageHandle, 3> in; ///< motion and depth, ids, colour
-        SurfaceLayer kept;
+        PackInputs raster;
+        SurfaceLayer packed;
     };
 
     return graph
@@ -143,60 +128,28 @@ SurfaceLayer SurfaceLayers::addPackKept(
             "pack surface",
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
-                data.in = {inputs.motionDepth, inputs.entityId, inputs.color};
-                for (const graph::ImageHandle image : data.in)
-                    builder.read(image, Access::SampledCompute);
-                data.kept = {
-                    builder.write(target.color, Access::StorageWrite),
-                    builder.write(target.surface, Access::StorageWrite)};
+                data.raster = raster;
+                builder.read(raster.motionDepth, Access::SampledCompute);
+                builder.read(raster.entityId, Access::SampledCompute);
+                data.packed.surface = builder.write(target.surface, Access::StorageWrite);
+                if (!raster.color.isValid())
+                    return;
+                builder.read(raster.color, Access::SampledCompute);
+                data.packed.color = builder.write(target.color, Access::StorageWrite);
             },
-            [this, params](const Data& data, graph::PassContext& context) {
+            [this, &pack, params](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;
                 gpu::BindingList bindings;
-                bindings.sampled(resources.view(data.in[0]), mSampler)
-                    .sampled(resources.view(data.in[1]), mSampler)
-                    .storage(resources.image(data.kept.surface))
-                    .sampled(resources.view(data.in[2]), mSampler)
-                    .storage(resources.image(data.kept.color));
-                dispatchPixels(context, mPackKept.get(), bindings, params, params.sizePx);
-            }
-        )
-        .kept;
-}
-
-graph::ImageHandle SurfaceLayers::addPack(
-    graph::Graph& graph,
-    const gpu::LazyPipeline& pack,
-    graph::ImageHandle motionDepth,
-    graph::ImageHandle entityId,
-    graph::ImageHandle target,
-    const PassParams& params
-) const {
-    struct Data {
-        graph::ImageHandle surface;
-    };
-
-    return graph
-        .addPass<Data>(
-            "pack surface",
-            graph::PassKind::Compute,
-            [&](graph::PassBuilder& builder, Data& data) {
-                builder.read(motionDepth, Access::SampledCompute);
-                builder.read(entityId, Access::SampledCompute);
-                data.surface = builder.write(target, Access::StorageWrite);
-            },
-            [this, &pack, motionDepth, entityId, params](
-                const Data& data, graph::PassContext& context
-            ) {
-                const graph::PassResources& resources = context.resources;
-                gpu::BindingList bindings;
-                bindings.sampled(resources.view(motionDepth), mSampler)
-                    .sampled(resources.view(entityId), mSampler)
-                    .storage(resources.image(data.surface));
+                bindings.sampled(resources.view(data.raster.motionDepth), mSampler)
+                    .sampled(resources.view(data.raster.entityId), mSampler)
+                    .storage(resources.image(data.packed.surface));
+                if (data.raster.color.isValid())
+                    bindings.sampled(resources.view(data.raster.color), mSampler)
+                        .storage(resources.image(data.packed.color));
                 dispatchPixels(context, pack.get(), bindings, params, params.sizePx);
             }
         )
-        .surface;
+        .packed;
 }
 
 } // namespace shutter::motion_blur

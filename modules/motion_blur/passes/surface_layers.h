@@ -31,23 +31,20 @@ class SurfaceLayers {
     ) const;
 
   private:
-    /// Packs this frame's raster and keeps its colour.
-    /// \param target where what is kept goes
-    [[nodiscard]] SurfaceLayer addPackKept(
-        graph::Graph& graph,
-        const MotionBlurInputs& inputs,
-        const SurfaceLayer& target,
-        const PassParams& params
-    ) const;
+    /// What is packed of a raster.
+    struct PackInputs {
+        graph::ImageHandle motionDepth;
+        graph::ImageHandle entityId;
+        graph::ImageHandle color; ///< copied as well, by mPackKept; invalid: it is not
+    };
 
-    /// \param pack mPack or mPackWhole
-    /// \param motionDepth, entityId of the raster to be packed
-    [[nodiscard]] graph::ImageHandle addPack(
+    /// \param target its colour is written if the raster's is copied
+    /// \return target, as written
+    [[nodiscard]] SurfaceLayer addPack(
         graph::Graph& graph,
         const gpu::LazyPipeline& pack,
-        graph::ImageHandle motionDepth,
-        graph::ImageHandle entityId,
-        graph::ImageHandle target,
+        const PackInputs& raster,
+        const SurfaceLayer& target,
         const PassParams& params
     ) const;
 
