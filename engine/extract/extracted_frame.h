@@ -59,6 +59,14 @@ enum class FrameFit : uint8_t {
     Height ///< it is as high as the picture: a narrower picture crops its sides
 };
 
+/// What ViewRequest::jitterPx moves.
+enum class Jittered : uint8_t {
+    All,
+    /// What is where it was one frame ago and does not move during the exposure; nothing while the
+    /// camera moves.
+    Static,
+};
+
 struct ViewRequest {
     ecs::Entity camera;
     scene::ExposureInterval exposure;
@@ -71,11 +79,14 @@ struct ViewRequest {
     uint32_t width = 1280; ///< pixels, above 0
     uint32_t height = 720; ///< pixels, above 0
     FrameFit frameFit = FrameFit::Whole;
-    math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]
+    math::dvec2 jitterPx{0.0}; ///< moves the sample inside the pixel, [-0.5, 0.5]
+    Jittered jittered = Jittered::All;
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
-    bool unlit = false;          ///< base colour only
+    /// Added to it in the raster where neither the camera nor the entity moves.
+    float staticLodBias = 0.0f;
+    bool unlit = false; ///< base colour only
     /// Where the scene has an environment: it is seen and lights, in place of the two colours.
     bool environment = true;
     bool particles = true; ///< those of the world's emitters are shown

@@ -31,6 +31,10 @@ bool hasTriangles(const SceneLayout& layout, uint32_t mesh) {
            layout.firstGeometry[mesh] != layout.firstGeometry[mesh + 1];
 }
 
+bool isStill(const ObjectPoses& poses) {
+    return poses.still || (poses.open == poses.raster && poses.close == poses.raster);
+}
+
 } // namespace
 
 core::Result<ExtractedFrame*> FrameExtractor::update(
@@ -307,16 +311,16 @@ bool FrameExtractor::placeMoving(const Frame& frame) {
     size_t quiet = 0;
     for (const uint32_t index : mFrame.movingRows) {
         Row& row = mRows[index];
-        const bool written = std::exchange(row.written, false);
-        if (!row.evolves) {
-            quiet += !written;
+        if (row.evolves) {
+            auto posed = pose(frame, mFrame.entityHandles[index], mFrame.entityMeshes[index], true);
+            if (!posed)
+                return false;
+            place(frame, index, std::move(*posed));
+        } else {
+            quiet += !row.written;
             place(frame, index, {ObjectPoses(row.worldFromObject), std::nullopt});
-            continue;
         }
-        auto posed = pose(frame, mFrame.entityHandles[index], mFrame.entityMeshes[index], true);
-        if (!posed)
-            return false;
-        place(frame, index, std::move(*posed));
+        row.written = false;
     }
     drawMoving(frame.layout);
     if (quiet > kMaxQuiet + mRows.size() / 8)
@@ -331,6 +335,9 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     mFrame.worldFromObject[index] = posed.poses.raster;
     const bool shapeChanges = posed.shape && posed.shape->changes;
     const bool deformedMirrored = posed.shape && posed.shape->mirrored;
+    posed.poses.jitters = frame.view.jittersAll() ||
+                          (!row.written && !shapeChanges && isStill(posed.poses) &&
+                           frame.view.jitters(mFrame.entityHandles[index], posed.poses.raster));
     PlacedEntity placed = placeEntity(
         frame.view.matrices(),
         posed.poses,

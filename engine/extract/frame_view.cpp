@@ -5,6 +5,7 @@
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
+#include "engine/scene/shutter.h"
 
 #include <algorithm>
 #include <array>
@@ -117,6 +118,8 @@ bool isIdentical(const ViewMatrices& a, const ViewMatrices& b) {
 
 FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     : mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)) {
+    if (request.jittered == Jittered::Static)
+        mBefore.emplace(world, request.camera, scene::computeExposureBefore(request.exposure, 1));
     const auto& camera = world.registry.get<scene::Camera>(request.camera);
     const std::array times{mTimes.open, mTimes.raster, mTimes.close};
     for (int i = 0; i < 3; ++i) {
@@ -129,10 +132,28 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     }
     mMatrices.clipFromWorldOpen = mClipFromView[0] * mViewFromWorld[0];
     mMatrices.clipFromWorldRaster = mClipFromView[1] * mViewFromWorld[1];
-    mMatrices.clipFromWorldJittered = jitterClip(request) * mMatrices.clipFromWorldRaster;
     mMatrices.clipFromWorldClose = mClipFromView[2] * mViewFromWorld[2];
+    const bool isHeld = mBefore && !isCameraAtRest(request);
+    mMatrices.clipFromWorldJittered = isHeld ? mMatrices.clipFromWorldRaster
+                                             : jitterClip(request) * mMatrices.clipFromWorldRaster;
     mMatrices.eye = mEye[1];
     fillConstants(camera, request);
+    if (!isHeld)
+        mConstants.staticLodBias += request.staticLodBias;
+}
+
+bool FrameView::isCameraAtRest(const ViewRequest& request) const {
+    const double before = mBefore->exposure().rasterTime;
+    return isIdentical(mMatrices.clipFromWorldOpen, mMatrices.clipFromWorldRaster) &&
+           isIdentical(mMatrices.clipFromWorldClose, mMatrices.clipFromWorldRaster) &&
+           mBefore->worldFromCamera(before) ==
+               mMotion.worldFromCamera(request.exposure.rasterTime) &&
+           mBefore->cameraYFov(before) == mMotion.cameraYFov(request.exposure.rasterTime);
+}
+
+bool FrameView::jitters(ecs::Entity entity, const dmat4& worldFromObject) const {
+    return jittersAll() ||
+           mBefore->worldFromObject(entity, mBefore->exposure().rasterTime) == worldFromObject;
 }
 
 void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& request) {
@@ -161,7 +182,7 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mConstants.pixelFootprint =
         perspective ? math::vec2(footprint, 0.0f) : math::vec2(0.0f, footprint);
     mMirrors = half.x * half.y < 0.0;
-    mConstants.lodBias = request.lodBias;
+    mConstants.lodBias = mConstants.staticLodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
     // A motion that ends where it began is one too: the raster instant tells.
     const math::mat4 unmoved = clipFromEyeAt(1);
@@ -181,7 +202,9 @@ PlacedEntity placeEntity(
     bool shapeChanges
 ) {
     PlacedEntity placed;
-    const dmat4 clipRaster = view.clipFromWorldJittered * poses.raster;
+    const dmat4& clipFromWorld =
+        poses.jitters ? view.clipFromWorldJittered : view.clipFromWorldRaster;
+    const dmat4 clipRaster = clipFromWorld * poses.raster;
     placed.row.clipFromObjectRaster = math::mat4(clipRaster);
     dmat4 eye = poses.raster;
     eye[3] -= dvec4(view.eye, 0.0);

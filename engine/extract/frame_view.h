@@ -10,6 +10,8 @@
 #include "engine/scene/exposure_motion.h"
 #include "shaders/render/scene_shared.h"
 
+#include <optional>
+
 namespace shutter::extract {
 
 /// Finite and not singular: triangles keep an area, and the matrix has an inverse.
@@ -64,13 +66,25 @@ class FrameView {
     /// Within the exposure.
     [[nodiscard]] bool moves() const { return mMoves; }
 
+    /// Whether ViewRequest::jitterPx moves the samples of an entity that does not move during the
+    /// exposure. \param worldFromObject of the entity at the raster instant
+    [[nodiscard]] bool jitters(ecs::Entity entity, const math::dmat4& worldFromObject) const;
+
+    /// Whether it moves those of all entities.
+    [[nodiscard]] bool jittersAll() const { return !mBefore; }
+
     /// Left and right, or up and down, change places: windings turn round.
     [[nodiscard]] bool mirrors() const { return mMirrors; }
 
   private:
     void fillConstants(const scene::Camera& camera, const ViewRequest& request);
 
+    /// Whether the camera is where it was one frame ago, and stays there.
+    [[nodiscard]] bool isCameraAtRest(const ViewRequest& request) const;
+
     scene::ExposureMotion mMotion;
+    /// Of the frame before, at its raster instant; nothing unless Jittered::Static.
+    std::optional<scene::ExposureMotion> mBefore;
     DeformationTimes mTimes;
     math::dmat4 mClipFromView[3];  ///< open, raster instant, close
     math::dmat4 mViewFromWorld[3]; ///< open, raster instant, close
@@ -87,7 +101,8 @@ struct ObjectPoses {
     math::dmat4 open{1.0};
     math::dmat4 raster{1.0};
     math::dmat4 close{1.0};
-    bool still = false; ///< the three are one
+    bool still = false;  ///< the three are one
+    bool jitters = true; ///< the raster's jitter moves its samples
 
     explicit ObjectPoses(const math::dmat4& always)
         : open(always), raster(always), close(always), still(true) {}

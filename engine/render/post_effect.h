@@ -96,6 +96,7 @@ struct ExtractContext {
     /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
+    bool rasterHasParticles = false; ///< they are drawn into its colour
     /// What is drawn over the effect's picture (PostEffect::askParticles); null: nothing.
     const extract::ParticleTables* particles = nullptr;
 };

@@ -253,6 +253,7 @@ core::Status Renderer::submitFrame(
     const auto particles = extractParticles(context, request, running);
     if (!particles)
         return particles.error();
+    context.rasterHasParticles = !running.particles.run && !particles.value().empty();
     SHUTTER_TRY(extractForEffects(slot, context, particles.value(), running));
     slot.frame.begin();
     slot.readback.reset();

@@ -87,12 +87,16 @@ core::Status Renderer::extractForEffects(
 ) {
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
+    // Nothing gathers the samples of static surfaces in these.
+    extract::ViewRequest view = context.view;
+    if (view.jittered == extract::Jittered::Static)
+        view.jitterPx = math::dvec2(0.0);
     if (running.secondRaster.run)
-        SHUTTER_TRY(slot.secondRaster->extract(
-            context.world, layout, makeViewOfOtherEnd(context.view), hidden
-        ));
+        SHUTTER_TRY(
+            slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(view), hidden)
+        );
     if (running.lastRaster.run) {
-        const auto before = extract::makeViewBefore(context.world, context.view, context.motion);
+        const auto before = extract::makeViewBefore(context.world, view, context.motion);
         SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
         SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before, hidden));
     }

@@ -5,6 +5,8 @@
 // Code of shadows takes three times the registers of the rest, whether or not it runs.
 layout(constant_id = 3) const bool kMayHaveShadows = true; // false: no light of the frame casts any
 #define SHUTTER_MAY_HAVE_SHADOWS kMayHaveShadows
+layout(constant_id = 2) const uint kMoves = 1u; // 0: the entity has no motion
+#define SHUTTER_LOD_BIAS(frame) (kMoves != 0u ? frame.value.lodBias : frame.value.staticLodBias)
 #include "render/lighting.glsl"
 #include "render/motion.glsl"
 #include "render/fragment_point.glsl"
@@ -12,7 +14,6 @@ layout(constant_id = 3) const bool kMayHaveShadows = true; // false: no light of
 layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: pixels below the cutoff are dropped
 // 1: alpha is kept for blending; 2: the colour is premultiplied for it
 layout(constant_id = 1) const uint kBlend = 0u;
-layout(constant_id = 2) const uint kMoves = 1u;     // 0: the entity has no motion
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 

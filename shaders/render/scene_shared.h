@@ -129,7 +129,8 @@ struct FrameConstants {
     vec4 ambient;          // uniform radiance from everywhere, linear RGB
     vec2 sizePx;           // picture's width and height
     vec2 pixelFootprint;   // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
-    float lodBias;         // added to every texture level of detail
+    float lodBias;         // added to every texture level of detail, but for
+    float staticLodBias;   // ... the raster's of entities that do not move in the picture
     uint flags;            // kFrame...
     uint lightCount;
     uint entityCount; // rows of `entities`: no row is read for a mesh id that is not below it
@@ -163,7 +164,7 @@ static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 408);
+static_assert(sizeof(shutter::shader::FrameConstants) == 412);
 static_assert(sizeof(shutter::shader::EnvironmentConstants) == 208);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif

@@ -6,6 +6,11 @@
 #include "render/scene_bindings.glsl"
 #include "render/texture_lod.glsl"
 
+/// Of textures' levels.
+#ifndef SHUTTER_LOD_BIAS
+#define SHUTTER_LOD_BIAS(frame) frame.value.lodBias
+#endif
+
 /// A point on a triangle as raster interpolates it or a ray finds it. Directions need not be unit.
 struct SurfacePoint {
     vec3 eyePosition;     // eye space, metres
@@ -48,7 +53,7 @@ vec4 sampleRef(FrameRef frame, TextureRef ref, SurfacePoint point, float footpri
     float stretch = abs(ref.axes.x * ref.axes.w - ref.axes.y * ref.axes.z);
     float level = textureLevel(
         point.uvDensity[ref.uvSet] * stretch, sceneTextureTexels(ref.texture), footprint, cosine,
-        frame.value.lodBias
+        SHUTTER_LOD_BIAS(frame)
     );
     return sampleSceneTexture(ref.texture, uv, level);
 }

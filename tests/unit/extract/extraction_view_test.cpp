@@ -4,6 +4,7 @@
 #include "engine/extract/timed_tables.h"
 #include "engine/math/transform.h"
 #include "engine/scene/history.h"
+#include "engine/scene/path.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <algorithm>
@@ -213,6 +214,84 @@ TEST_F(Extraction, JitterMovesTheSampleByThatPartOfAPixelAndLeavesMotionAlone) {
     EXPECT_EQ(motion.clipFromObjectOpen, expected.clipFromObjectOpen);
     EXPECT_EQ(motion.clipFromObjectClose, expected.clipFromObjectClose);
     EXPECT_NE(motion.clipFromObjectOpen, motion.clipFromObjectClose);
+}
+
+/// Where a box's centre is drawn, pixels from where it is without jitter.
+class JitterOfStatic : public Extraction {
+  protected:
+    JitterOfStatic() {
+        request.jittered = Jittered::Static;
+        request.lodBias = -1.0f;
+        request.staticLodBias = -2.0f;
+        setExposure(0.25);
+    }
+
+    void setExposure(double seconds) {
+        scene::CameraShutter shutter;
+        shutter.exposureSeconds = seconds;
+        request.exposure = scene::computeExposure(shutter, 2.0, 0.5);
+    }
+
+    /// For each row.
+    std::vector<math::dvec2> findShiftsPx() {
+        std::vector<math::dvec2> shifts;
+        request.jitterPx = {0.0, 0.0};
+        const ExtractedFrame plain = extract();
+        request.jitterPx = {0.25, -0.5};
+        const ExtractedFrame jittered = extract();
+        for (size_t row = 0; row < plain.entities.size(); ++row) {
+            const auto at = [&](const ExtractedFrame& frame) {
+                return math::dvec2(project(frame.entities[row].clipFromObjectRaster, {0, 0, 0})) *
+                       0.5 * math::dvec2(request.width, request.height);
+            };
+            shifts.push_back(at(jittered) - at(plain));
+        }
+        return shifts;
+    }
+
+    static void expectMoved(const math::dvec2& shift) {
+        EXPECT_NEAR(shift.x, -0.25, 1e-4);
+        EXPECT_NEAR(shift.y, 0.5, 1e-4);
+    }
+};
+
+TEST_F(JitterOfStatic, WhatMovesOrDeformsOrMovedSinceTheLastFrameIsSampledAtTheCentre) {
+    addBox({0.0, 0.0, -8.0});
+    const ecs::Entity mover = addBox({2.0, 0.0, -8.0});
+    world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    // At rest during the exposure, and not at the last frame's raster, half a second before.
+    const ecs::Entity parked = addBox({-2.0, 0.0, -8.0});
+    scene::PathMotion path;
+    path.keys = {{.seconds = 1.5}, {.seconds = 1.7}};
+    path.keys[1].position = math::dvec3(-2.0, 1.0, -8.0);
+    path.keys[0].position = math::dvec3(-2.0, 0.0, -8.0);
+    world.registry.add(parked, path);
+    for (const double exposure : {0.25, 0.0}) {
+        setExposure(exposure);
+        const std::vector<math::dvec2> shifts = findShiftsPx();
+        ASSERT_EQ(shifts.size(), 3u);
+        expectMoved(shifts[0]);
+        EXPECT_EQ(shifts[1], math::dvec2(0.0)) << exposure;
+        EXPECT_EQ(shifts[2], math::dvec2(0.0)) << exposure;
+    }
+    EXPECT_EQ(extract().constants.staticLodBias, -3.0f);
+    EXPECT_EQ(extract().constants.lodBias, -1.0f);
+}
+
+TEST_F(JitterOfStatic, AnEntityThatCouldMoveAndDoesNotIsJittered) {
+    const ecs::Entity box = addBox({0.0, 0.0, -8.0});
+    world.registry.add(box, scene::LinearVelocity{{0.0, 0.0, 0.0}});
+    expectMoved(findShiftsPx().at(0));
+}
+
+TEST_F(JitterOfStatic, UnderACameraThatMovesNothingIsJittered) {
+    addBox({0.0, 0.0, -8.0});
+    world.registry.add(camera, scene::LinearVelocity{{0.1, 0.0, 0.0}});
+    for (const double exposure : {0.25, 0.0}) {
+        setExposure(exposure);
+        EXPECT_EQ(findShiftsPx().at(0), math::dvec2(0.0)) << exposure;
+        EXPECT_EQ(extract().constants.staticLodBias, -1.0f) << exposure;
+    }
 }
 
 TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
