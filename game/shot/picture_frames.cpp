@@ -224,7 +224,8 @@ core::Status PictureDrawer::submitFrameBefore(
     before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
     std::vector<render::PostEffect*> effects{prepareTaa(request)};
-    if (age == 1 && usesFrameBefore(request.method))
+    // In each: what it draws over the raster itself must not be gathered as static.
+    if (request.method.method->family == MethodFamily::MotionBlur)
         effects.push_back(prepareEffect(request, {}));
     std::erase(effects, nullptr);
     return submitFrame(

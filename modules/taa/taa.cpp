@@ -6,8 +6,9 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
-#include "engine/math/sampling.h"
 #include "shaders/taa/taa_shared.h"
+
+#include <array>
 
 namespace shutter::taa {
 
@@ -17,9 +18,11 @@ using graph::Access;
 
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-/// Textures of a single frame are this much sharper, in levels of detail: as for four samples a
-/// pixel. All kPlaceCount would bear more, but the motion's resampling does not.
+/// Textures of one sample per pixel are this much sharper, in levels of detail: less is nearer to
+/// the mean over the pixel also where only motion blur smooths them.
 constexpr float kLodBias = -1.0f;
+/// Those of kPlaceCount samples are so by as much again: two levels are a quarter of the width.
+constexpr float kStaticLodBias = -1.0f;
 
 gpu::ComputePipelineDesc describePipeline() {
     gpu::ComputePipelineDesc desc;
@@ -32,7 +35,6 @@ gpu::ComputePipelineDesc describePipeline() {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::TaaParams);
     return desc;
@@ -40,13 +42,12 @@ gpu::ComputePipelineDesc describePipeline() {
 
 struct Data {
     graph::ImageHandle color;
-    graph::ImageHandle motionDepth;
     graph::ImageHandle entityId;
     graph::ImageHandle last; ///< invalid: there is none
-    graph::ImageHandle lastDepth;
+    graph::ImageHandle lastRow;
     graph::ImageHandle picture;
     graph::ImageHandle kept;
-    graph::ImageHandle keptDepth;
+    graph::ImageHandle keptRow;
 };
 
 graph::ImageHandle readLast(
@@ -65,15 +66,16 @@ graph::ImageHandle writeKept(
     );
 }
 
-shader::TaaParams makeParams(const render::PostContext& context, const LastPicture::Frame& frame) {
+shader::TaaParams makeParams(const render::PostContext& context, const StaticLayer::Frame& frame) {
     shader::TaaParams params{};
     params.sizePx = {context.facts.width, context.facts.height};
     params.jitterPx = math::vec2(context.view.jitterPx);
-    params.last = frame.places;
+    params.frame = gpu::splitAddress(context.frameConstants);
+    params.rows = frame.rows;
     params.leastShare = 1.0f / float(kMostFrames);
-    params.motionScale = frame.motionScale;
+    params.isCameraAtRest = frame.isCameraAtRest ? 1 : 0;
     params.hasLast = frame.last ? 1 : 0;
-    params.isPerspective = frame.isPerspective ? 1 : 0;
+    params.mayDiffer = frame.mayDiffer ? 1 : 0;
     return params;
 }
 
@@ -82,66 +84,72 @@ shader::TaaParams makeParams(const render::PostContext& context, const LastPictu
 math::dvec2 computeJitterPx(int64_t frameNumber) {
     constexpr auto kCount = int64_t{kPlaceCount};
     const auto index = static_cast<uint32_t>((frameNumber % kCount + kCount) % kCount);
-    return math::halton23(index + 1) - 0.5; // the first is the corner
+    constexpr std::array<uint32_t, 4> kSecond{8, 12, 10, 15}; // directions of the second dimension
+    uint32_t x = 0;
+    uint32_t y = 0;
+    for (uint32_t bit = 0; bit < kSecond.size(); ++bit)
+        if ((index >> bit & 1u) != 0) {
+            x ^= 8u >> bit;
+            y ^= kSecond[bit];
+        }
+    return (math::dvec2(x, y) + 0.5) / double(kPlaceCount) - 0.5;
 }
 
 extract::ViewRequest makeJittered(const extract::ViewRequest& view, int64_t frameNumber) {
     extract::ViewRequest jittered = view;
     jittered.jitterPx = computeJitterPx(frameNumber);
+    jittered.jittered = extract::Jittered::Static;
     jittered.lodBias = view.lodBias + kLodBias;
+    jittered.staticLodBias = kStaticLodBias;
     return jittered;
 }
 
 Taa::Taa(gpu::Device& device)
-    : mDevice(device), mPipeline(device, describePipeline()), mLast(device) {}
+    : mDevice(device), mPipeline(device, describePipeline()), mStatic(device) {}
 
 core::Decision Taa::ask(const render::ViewFacts&) const {
     if (!mEnabled)
         return {false, "no temporal anti-aliasing is wanted"};
-    return {true, "each frame samples another place in the pixel"};
+    return {true, "each frame samples another place in the pixel of what is static"};
 }
 
 void Taa::extract(render::ExtractContext& context) {
-    mLast.extract(context);
+    mStatic.extract(context);
     context.colorJitterPx = math::dvec2(0.0);
 }
 
 void Taa::declare(render::PostContext& context) {
     graph::Graph& graph = context.graph;
-    const LastPicture::Frame frame = mLast.turn(context);
+    const StaticLayer::Frame frame = mStatic.turn(context);
     const shader::TaaParams params = makeParams(context, frame);
     const Data& pass = graph.addPass<Data>(
         "taa",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.color = builder.read(context.color, Access::SampledCompute);
-            data.motionDepth = builder.read(context.gbuffer.motionDepth, Access::SampledCompute);
             data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
             if (frame.last) {
-                data.last = readLast(builder, graph, "last picture", frame.last->picture);
-                data.lastDepth = readLast(builder, graph, "last depth", frame.last->depth);
+                data.last = readLast(builder, graph, "last static colour", frame.last->color);
+                data.lastRow = readLast(builder, graph, "last static row", frame.last->row);
             }
             data.picture = builder.write(
                 graph.createImage("picture", {params.sizePx.x, params.sizePx.y, kFormat}),
                 Access::StorageWrite
             );
-            data.kept = writeKept(builder, graph, "kept picture", frame.kept->picture);
-            data.keptDepth = writeKept(builder, graph, "kept depth", frame.kept->depth);
+            data.kept = writeKept(builder, graph, "static colour", frame.kept->color);
+            data.keptRow = writeKept(builder, graph, "static row", frame.kept->row);
         },
         [this, params](const Data& data, graph::PassContext& recording) {
             const graph::PassResources& resources = recording.resources;
             // A binding that the shader does not use is something all the same.
             const bool hasLast = data.last.isValid();
             const graph::ImageHandle last = hasLast ? data.last : data.color;
-            const graph::ImageHandle lastDepth = hasLast ? data.lastDepth : data.motionDepth;
+            const graph::ImageHandle lastRow = hasLast ? data.lastRow : data.entityId;
             gpu::BindingList bindings;
-            for (const graph::ImageHandle image : {data.color, data.motionDepth, data.entityId})
+            for (const graph::ImageHandle image : {data.color, data.entityId, last, lastRow})
                 bindings.sampled(resources.view(image), mDevice.nearestSampler());
-            bindings.sampled(resources.view(last), mDevice.linearSampler())
-                .storage(resources.image(data.picture))
-                .storage(resources.image(data.kept))
-                .sampled(resources.view(lastDepth), mDevice.nearestSampler())
-                .storage(resources.image(data.keptDepth));
+            for (const graph::ImageHandle image : {data.picture, data.kept, data.keptRow})
+                bindings.storage(resources.image(image));
             recording.frame.bind(mPipeline.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(
                 recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
@@ -149,13 +157,13 @@ void Taa::declare(render::PostContext& context) {
         }
     );
     graph.markOutput(pass.kept);
-    graph.markOutput(pass.keptDepth);
+    graph.markOutput(pass.keptRow);
     context.color = pass.picture;
 }
 
 void Taa::finish(render::FinishedFrame& frame) {
     if (!frame.ran)
-        mLast.forget();
+        mStatic.forget();
 }
 
 } // namespace shutter::taa

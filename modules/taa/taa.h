@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Temporal anti-aliasing: each frame samples another place in the pixel, and the pictures before
-// carry the other samples, found again by motion.
+// Temporal anti-aliasing: each frame samples another place in the pixel of what is static, and
+// their mean is kept from frame to frame.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/math/math.h"
 #include "engine/render/post_effect.h"
-#include "modules/taa/last_picture.h"
+#include "modules/taa/static_layer.h"
 
 #include <cstdint>
 #include <string>
@@ -23,8 +23,9 @@ inline constexpr uint32_t kMostFrames = 2 * kPlaceCount;
 /// Frames before a picture that settle what it shows, where none was drawn.
 inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 
-/// Place of a frame's samples: by the sequence of Halton with bases 2 and 3, from the pixel's
-/// centre, pixels, right and down, within (-0.5, 0.5).
+/// Place of a frame's samples: by Sobol's sequence in two dimensions, whose first kPlaceCount
+/// places lie evenly and around the centre (Sobol 1967); from the pixel's centre, pixels, right and
+/// down, within (-0.5, 0.5).
 [[nodiscard]] math::dvec2 computeJitterPx(int64_t frameNumber);
 
 /// The view that a frame of an anti-aliased sequence draws: jittered, with textures as sharp as its
@@ -33,15 +34,18 @@ inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 [[nodiscard]] extract::ViewRequest
 makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 
-/// After Karis 2014 ("High Quality Temporal Supersampling") and Salvi 2016 ("An Excursion in
-/// Temporal Supersampling"): history by the surface's own motion, Catmull-Rom between its texels,
-/// clipped to the variance of the neighbourhood in YCoCg. History counts where the last frame's
-/// depth says that it is of the same surface, or of one across an edge that moves along; elsewhere
-/// the pixel is filtered from the samples around it. A pixel is the plain mean of the frames behind
-/// it up to kMostFrames, then each new one has an equal share. Runs on the linear picture before
-/// the motion blur. The view must be one of makeJittered(); its colour has no jitter afterwards
-/// (ExtractContext::colorJitterPx), the other images of the raster keep theirs. Keeps 24 bytes a
-/// pixel: colour and depth, of this frame and the last one.
+/// Where neither the camera nor the entity moves, a pixel is the mean of the frames in which it was
+/// seen: the plain mean up to kMostFrames, then each new frame has an equal share. The mean stays
+/// while something moves in front. In frames in which what is static may look different (another
+/// light, an entity that comes, goes, starts or stops, particles, glass that moves, tiles that a
+/// moving shadow may reach) it is clipped to the variance of the neighbourhood in YCoCg (Salvi
+/// 2016, "An Excursion in Temporal Supersampling"), mixed as Karis 2014 ("High Quality Temporal
+/// Supersampling"). What moves has one sample at the pixel's centre and no history: motion blur
+/// smooths it, and reprojected history is farther from the mean over the pixel than none
+/// (docs/anti_aliasing.md). Runs on the linear picture before the motion blur. The view must be one
+/// of makeJittered(); afterwards its colour has no jitter (ExtractContext::colorJitterPx), other
+/// images of the raster keep theirs where the surface is static. Keeps 24 bytes per pixel: colour
+/// and row, of this frame and the last one.
 class Taa : public render::PostEffect {
   public:
     explicit Taa(gpu::Device& device);
@@ -59,7 +63,7 @@ class Taa : public render::PostEffect {
   private:
     gpu::Device& mDevice;
     gpu::LazyPipeline mPipeline;
-    LastPicture mLast;
+    StaticLayer mStatic;
     bool mEnabled = true;
 };
 

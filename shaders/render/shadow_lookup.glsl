@@ -6,11 +6,9 @@
 
 #include "render/scene_bindings.glsl"
 #include "render/shadow_filter.glsl"
+#include "render/shadow_tiles.glsl"
 #include "render/surface.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef {
-    ShadowConstants value;
-};
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowMapTable {
     ShadowMap rows[];
 };
@@ -28,9 +26,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Sh
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowRunTable {
     ShadowRun rows[];
-};
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTileTable {
-    uint movers[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTexels {
     float values[];
@@ -338,16 +333,6 @@ float passMovers(
         sum += dot(passed, vec4(1.0f));
     }
     return resting * sum / float(count);
-}
-
-/// The movers whose shadows may fall into a tile of the raster: boxes around them touch it.
-/// \param pixel of the raster
-uint moversOfTile(FrameRef frame, vec2 pixel) {
-    uvec2 address = frame.value.shadows;
-    if ((address.x | address.y) == 0u) return 0u;
-    ShadowRef shadows = ShadowRef(address);
-    uvec2 tile = uvec2(pixel) / kShadowTilePx;
-    return ShadowTileTable(shadows.value.tiles).movers[tile.y * shadows.value.tilesAcross + tile.x];
 }
 
 /// Share of a light that reaches a point, [0, 1], at the raster instant or, for shadows of what

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of the last picture in this frame's pixel. Colours are compared and mixed by
+// What becomes of the colour that was kept of a pixel. Colours are compared and mixed by
 // brightness as it is seen, so that a single bright sample does not outweigh all others (Karis
 // 2014, "High Quality Temporal Supersampling").
 #ifndef SHUTTER_TAA_GLSL
@@ -9,16 +9,9 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Half the width of the box that the last picture's colour must lie in, in standard deviations of
+/// Half the width of the box that the kept colour must lie in, in standard deviations of
 /// the pixel's neighbourhood (Salvi 2016, "An Excursion in Temporal Supersampling").
 SHUTTER_CONST float kClipDeviations = 2.0f;
-
-/// By how much two depths of one surface differ at most between neighbouring texels and frames, as
-/// a share of the farther one.
-SHUTTER_CONST float kSameDepthShare = 0.02f;
-
-/// How far two surfaces that move alike get apart between two frames, pixels.
-SHUTTER_CONST float kApartPx = 0.5f;
 
 /// Colours that a display shows are as they are; what is brighter is brought to below 2, channel by
 /// channel by the same factor.
@@ -82,35 +75,6 @@ SHUTTER_INLINE Clipped clipToVariance(vec3 color, ColorMoments moments) {
     return clipped;
 }
 
-/// Catmull-Rom's cubic as three taps a side, the middle one of two texels by the linear filter
-/// (Jimenez 2016, "Filmic SMAA"): where they are, in texels, and what they weigh.
-struct CubicTaps {
-    vec2 before;
-    vec2 middle;
-    vec2 after;
-    vec2 beforeWeight;
-    vec2 middleWeight;
-    vec2 afterWeight;
-};
-
-/// \param at place in the image, texels
-SHUTTER_INLINE CubicTaps findCubicTaps(vec2 at) {
-    vec2 texel = floor(at - 0.5f) + 0.5f;
-    vec2 f = at - texel;
-    vec2 w0 = f * (-0.5f + f * (1.0f - 0.5f * f));
-    vec2 w1 = 1.0f + f * f * (-2.5f + 1.5f * f);
-    vec2 w2 = f * (0.5f + f * (2.0f - 1.5f * f));
-    vec2 w3 = f * f * (-0.5f + 0.5f * f);
-    CubicTaps taps;
-    taps.before = texel - 1.0f;
-    taps.middle = texel + w2 / (w1 + w2);
-    taps.after = texel + 2.0f;
-    taps.beforeWeight = w0;
-    taps.middleWeight = w1 + w2;
-    taps.afterWeight = w3;
-    return taps;
-}
-
 /// Weights of samples one pixel apart in what is seen at the pixel's middle, by the quadratic
 /// B-spline: they add up to 1 wherever the samples lie.
 /// \param offset of the middle sample from the pixel's middle, pixels, [-0.5, 0.5]
@@ -120,32 +84,6 @@ SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
     return vec3(0.5f * after * after, 0.75f - offset * offset, 0.5f * before * before);
 }
 
-/// Whether something at a depth is clearly nearer than what lies at another one, and hides it.
-/// Metres.
-SHUTTER_INLINE bool hides(float depth, float other) {
-    return depth < other * (1.0f - kSameDepthShare);
-}
-
-/// Whether what is seen at a pixel's edge has moved as the pixel has. If so, samples of either may
-/// fall into the pixel, in this frame as in the last one. \param displacement of the pixel, and of
-/// the edge, since the last frame, pixels
-SHUTTER_INLINE bool movesAlong(vec2 displacement, vec2 edge) {
-    vec2 apart = edge - displacement;
-    return dot(apart, apart) < kApartPx * kApartPx;
-}
-
-/// Depths at which the last frame may have seen what a pixel shows, metres.
-struct DepthRange {
-    float least;
-    float most;
-};
-
-/// Whether the last frame's sample was of what the pixel shows: nothing was in front of it then,
-/// and it was there.
-SHUTTER_INLINE bool wasSeen(DepthRange depths, float sampled) {
-    return !hides(sampled, depths.least) && !hides(depths.most, sampled);
-}
-
 /// What a pixel keeps for the frames after.
 struct Kept {
     vec3 color;  // linear
@@ -153,9 +91,11 @@ struct Kept {
 };
 
 /// \param current this frame's colour, linear and storable
+/// \param last what was kept; NaN, infinity and a count below 1 count as nothing
+/// \param mayDiffer the surface may look different than before: `last` must lie among the moments
 /// \param moments of the neighbourhood, compressed YCoCg
-/// \param last what the last picture has kept; NaN and infinity count as nothing
-SHUTTER_INLINE Kept mixWithLast(vec3 current, ColorMoments moments, Kept last, float leastShare) {
+SHUTTER_INLINE Kept
+mixWithLast(vec3 current, Kept last, float leastShare, bool mayDiffer, ColorMoments moments) {
     bool isUsable = isFinite(last.color.x) && isFinite(last.color.y) && isFinite(last.color.z) &&
                     isFinite(last.count) && last.count >= 1.0f;
     Kept kept;
@@ -165,11 +105,15 @@ SHUTTER_INLINE Kept mixWithLast(vec3 current, ColorMoments moments, Kept last, f
         return kept;
     vec3 now = ycocgFromRgb(compress(current));
     vec3 before = ycocgFromRgb(compress(max(last.color, vec3(0.0f))));
-    Clipped clipped = clipToVariance(before, moments);
-    // What had to be clipped was of another surface, at least in part: fewer frames vouch for it.
-    float trusted = max(1.0f, last.count / max(clipped.beyond * clipped.beyond, 1.0f));
+    float trusted = last.count;
+    if (mayDiffer) {
+        Clipped clipped = clipToVariance(before, moments);
+        before = clipped.color;
+        // What had to be clipped is out of date, at least in part: fewer frames vouch for it.
+        trusted = max(1.0f, trusted / max(clipped.beyond * clipped.beyond, 1.0f));
+    }
     float share = max(1.0f / (trusted + 1.0f), leastShare);
-    kept.color = storableColor(expand(rgbFromYcocg(mix(clipped.color, now, share))));
+    kept.color = storableColor(expand(rgbFromYcocg(mix(before, now, share))));
     kept.count = min(trusted + 1.0f, 1.0f / leastShare);
     return kept;
 }
