@@ -84,7 +84,7 @@ struct ViewRequest {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
-    /// Added to it in the raster where neither the camera nor the entity moves.
+    /// Added to it in the raster, under a camera that does not move, of entities without motion.
     float staticLodBias = 0.0f;
     bool unlit = false; ///< base colour only
     /// Where the scene has an environment: it is seen and lights, in place of the two colours.
@@ -166,6 +166,11 @@ struct ExtractedFrame {
     /// moves; except for EntityRow::instanceMask, which rows that stand still in the world have
     /// only if the camera moves.
     uint64_t stillRevision = 0;
+    /// With Jittered::Static: whether the camera is where it was one frame ago, and stays there.
+    bool isCameraAtRest = false;
+    /// One per row of its own, with Jittered::Static: whether the entity is, and keeps its shape.
+    /// The jitter moves those that are, unless the camera moves.
+    std::vector<bool> atRest;
     std::vector<math::dmat4> worldFromObject; ///< one per row of its own: at the raster instant
     std::vector<uint32_t> entityMeshes;       ///< one per row: index into Assets::meshes
     std::vector<ecs::Entity> entityHandles;   ///< one per row: its entity

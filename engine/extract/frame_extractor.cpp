@@ -69,6 +69,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     addLights(frame);
     mFrame.moves = view.moves() || mMovesInView > 0;
     mFrame.mirrors = view.mirrors();
+    mFrame.isCameraAtRest = view.isCameraAtRest();
     mFrame.layerRows.clear();
     return &mFrame;
 }
@@ -102,6 +103,7 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
 void FrameExtractor::clear() {
     mFrame.entities.clear();
     mFrame.worldFromObject.clear();
+    mFrame.atRest.clear();
     mFrame.stillMotions.clear();
     mFrame.movingMotions.clear();
     mFrame.movingRows.clear();
@@ -185,6 +187,7 @@ void FrameExtractor::list(const Frame& frame, ecs::Entity entity, uint32_t mesh)
     }
     mFrame.entities.push_back(entry);
     mFrame.worldFromObject.push_back(posed->poses.raster);
+    mFrame.atRest.push_back(false);
     mFrame.entityMeshes.push_back(mesh);
     mFrame.entityHandles.push_back(entity);
     if (moving)
@@ -328,6 +331,17 @@ bool FrameExtractor::placeMoving(const Frame& frame) {
     return true;
 }
 
+bool FrameExtractor::isAsBefore(
+    const scene::ExposureMotion& before, uint32_t index, const Posed& posed
+) const {
+    if (!mRows[index].evolves)
+        return true;
+    const ecs::Entity entity = mFrame.entityHandles[index];
+    const double raster = before.exposure().rasterTime;
+    return before.worldFromObject(entity, raster) == posed.poses.raster &&
+           (!posed.shape || isSame(before.deformationAt(entity, raster), posed.shape->raster));
+}
+
 void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     Row& row = mRows[index];
     shader::EntityRow& entry = mFrame.entities[index];
@@ -335,9 +349,10 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     mFrame.worldFromObject[index] = posed.poses.raster;
     const bool shapeChanges = posed.shape && posed.shape->changes;
     const bool deformedMirrored = posed.shape && posed.shape->mirrored;
-    posed.poses.jitters = frame.view.jittersAll() ||
-                          (!row.written && !shapeChanges && isStill(posed.poses) &&
-                           frame.view.jitters(mFrame.entityHandles[index], posed.poses.raster));
+    const scene::ExposureMotion* before = frame.view.before();
+    mFrame.atRest[index] = before && !row.written && !shapeChanges && isStill(posed.poses) &&
+                           isAsBefore(*before, index, posed);
+    posed.poses.jitters = !before || mFrame.atRest[index];
     PlacedEntity placed = placeEntity(
         frame.view.matrices(),
         posed.poses,

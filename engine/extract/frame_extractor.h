@@ -96,6 +96,9 @@ class FrameExtractor {
     /// Nothing for what cannot be drawn.
     static std::optional<Posed>
     pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves);
+    /// Whether the entity was there one frame ago, in the same shape.
+    [[nodiscard]] bool
+    isAsBefore(const scene::ExposureMotion& before, uint32_t index, const Posed& posed) const;
     void place(const Frame& frame, uint32_t index, Posed posed);
     void addDraws(const SceneLayout& layout, uint32_t index);
     void sortDraws(std::vector<DrawItem> DrawList::*part);

@@ -133,27 +133,23 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     mMatrices.clipFromWorldOpen = mClipFromView[0] * mViewFromWorld[0];
     mMatrices.clipFromWorldRaster = mClipFromView[1] * mViewFromWorld[1];
     mMatrices.clipFromWorldClose = mClipFromView[2] * mViewFromWorld[2];
-    const bool isHeld = mBefore && !isCameraAtRest(request);
-    mMatrices.clipFromWorldJittered = isHeld ? mMatrices.clipFromWorldRaster
-                                             : jitterClip(request) * mMatrices.clipFromWorldRaster;
+    mIsCameraAtRest = mBefore && findCameraAtRest(request);
+    const bool jitters = request.jittered == Jittered::All || mIsCameraAtRest;
+    mMatrices.clipFromWorldJittered = jitters ? jitterClip(request) * mMatrices.clipFromWorldRaster
+                                              : mMatrices.clipFromWorldRaster;
     mMatrices.eye = mEye[1];
     fillConstants(camera, request);
-    if (!isHeld)
+    if (jitters)
         mConstants.staticLodBias += request.staticLodBias;
 }
 
-bool FrameView::isCameraAtRest(const ViewRequest& request) const {
+bool FrameView::findCameraAtRest(const ViewRequest& request) const {
     const double before = mBefore->exposure().rasterTime;
     return isIdentical(mMatrices.clipFromWorldOpen, mMatrices.clipFromWorldRaster) &&
            isIdentical(mMatrices.clipFromWorldClose, mMatrices.clipFromWorldRaster) &&
            mBefore->worldFromCamera(before) ==
                mMotion.worldFromCamera(request.exposure.rasterTime) &&
            mBefore->cameraYFov(before) == mMotion.cameraYFov(request.exposure.rasterTime);
-}
-
-bool FrameView::jitters(ecs::Entity entity, const dmat4& worldFromObject) const {
-    return jittersAll() ||
-           mBefore->worldFromObject(entity, mBefore->exposure().rasterTime) == worldFromObject;
 }
 
 void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& request) {

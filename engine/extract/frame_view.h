@@ -66,12 +66,13 @@ class FrameView {
     /// Within the exposure.
     [[nodiscard]] bool moves() const { return mMoves; }
 
-    /// Whether ViewRequest::jitterPx moves the samples of an entity that does not move during the
-    /// exposure. \param worldFromObject of the entity at the raster instant
-    [[nodiscard]] bool jitters(ecs::Entity entity, const math::dmat4& worldFromObject) const;
+    /// Of the frame before, at its raster instant; null unless Jittered::Static.
+    [[nodiscard]] const scene::ExposureMotion* before() const {
+        return mBefore ? &*mBefore : nullptr;
+    }
 
-    /// Whether it moves those of all entities.
-    [[nodiscard]] bool jittersAll() const { return !mBefore; }
+    /// ExtractedFrame::isCameraAtRest.
+    [[nodiscard]] bool isCameraAtRest() const { return mIsCameraAtRest; }
 
     /// Left and right, or up and down, change places: windings turn round.
     [[nodiscard]] bool mirrors() const { return mMirrors; }
@@ -79,12 +80,11 @@ class FrameView {
   private:
     void fillConstants(const scene::Camera& camera, const ViewRequest& request);
 
-    /// Whether the camera is where it was one frame ago, and stays there.
-    [[nodiscard]] bool isCameraAtRest(const ViewRequest& request) const;
+    [[nodiscard]] bool findCameraAtRest(const ViewRequest& request) const;
 
     scene::ExposureMotion mMotion;
-    /// Of the frame before, at its raster instant; nothing unless Jittered::Static.
     std::optional<scene::ExposureMotion> mBefore;
+    bool mIsCameraAtRest = false;
     DeformationTimes mTimes;
     math::dmat4 mClipFromView[3];  ///< open, raster instant, close
     math::dmat4 mViewFromWorld[3]; ///< open, raster instant, close

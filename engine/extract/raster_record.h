@@ -35,7 +35,7 @@ struct RasterRecord {
     uint32_t width = 0;
     uint32_t height = 0;
     math::dmat4 pictureFromWorld{1.0};    ///< picture space (layer_tables.h)
-    math::dmat4 unjitteredFromWorld{1.0}; ///< the same without the raster's jitter
+    math::dmat4 unjitteredFromWorld{1.0}; ///< the same without the view's jitter
     std::vector<ecs::Entity> entities;    ///< one per row of the entity table
     std::vector<math::dmat4> worldFromObject;
     std::vector<bool> deforms;       ///< the row's shape changes during the exposure

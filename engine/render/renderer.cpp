@@ -239,17 +239,12 @@ core::Status Renderer::submitFrame(
         moving = std::move(computed).value();
     }
 
-    SHUTTER_TRY(slot.shadows->prepare(
-        extract::planShadows(
-            world,
-            mScene.layout(),
-            request.view,
-            mExtractor.view(),
-            frame,
-            /*keepsExposure=*/false
-        ),
-        frame
-    ));
+    extract::ShadowPlan shadows = extract::planShadows(
+        world, mScene.layout(), request.view, mExtractor.view(), frame, /*keepsExposure=*/false
+    );
+    if (shadows.shadows.run)
+        context.shadowRevision = shadows.casterRevision;
+    SHUTTER_TRY(slot.shadows->prepare(std::move(shadows), frame));
     const auto particles = extractParticles(context, request, running);
     if (!particles)
         return particles.error();

@@ -89,8 +89,11 @@ core::Status Renderer::extractForEffects(
     const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
     // Nothing gathers the samples of static surfaces in these.
     extract::ViewRequest view = context.view;
-    if (view.jittered == extract::Jittered::Static)
+    if (view.jittered == extract::Jittered::Static) {
+        view.jittered = extract::Jittered::All;
         view.jitterPx = math::dvec2(0.0);
+        view.staticLodBias = 0.0f;
+    }
     if (running.secondRaster.run)
         SHUTTER_TRY(
             slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(view), hidden)

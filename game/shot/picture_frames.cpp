@@ -225,7 +225,7 @@ core::Status PictureDrawer::submitFrameBefore(
     before.wantTrace = request.frame.wantTrace;
     std::vector<render::PostEffect*> effects{prepareTaa(request)};
     // In each: what it draws over the raster itself must not be gathered as static.
-    if (request.method.method->family == MethodFamily::MotionBlur)
+    if (usesFrameBefore(request.method))
         effects.push_back(prepareEffect(request, {}));
     std::erase(effects, nullptr);
     return submitFrame(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/taa/static_layer.h"
 
+#include "engine/extract/deformed_entity.h"
 #include "engine/gpu/vulkan.h"
 
 #include <algorithm>
@@ -37,14 +38,17 @@ bool hasPassers(const render::ExtractContext& context, const std::vector<bool>& 
            });
 }
 
-/// \param picture picture space without jitter, from the world, at the raster instant
-bool isHeld(const render::ExtractContext& context, const math::dmat4& picture) {
-    extract::ViewRequest view = context.view;
-    view.jitterPx = math::dvec2(0.0);
-    const auto isThere = [&](double s) {
-        return extract::pictureFromWorldAt(context.world, view, context.motion, s) == picture;
-    };
-    return isThere(0.0) && isThere(1.0);
+bool isSame(const extract::ShadowSettings& a, const extract::ShadowSettings& b) {
+    return a.mode == b.mode && a.mapSize == b.mapSize && a.distance == b.distance &&
+           a.instants == b.instants;
+}
+
+/// For each row of a record the index of its shape, or kNoRow.
+std::vector<uint32_t> listShapes(const extract::RasterRecord& record) {
+    std::vector<uint32_t> shapes(record.entities.size(), extract::kNoRow);
+    for (uint32_t i = 0; i < record.shapes.size(); ++i)
+        shapes[record.shapes[i].row] = i;
+    return shapes;
 }
 
 } // namespace
@@ -56,48 +60,48 @@ StaticLayer::Record StaticLayer::makeRecord(const render::ExtractContext& contex
         context.world, context.view, context.motion, frame, context.view.exposure.rasterTime
     );
     record.meshes = frame.entityMeshes;
-    for (size_t row = 0; row < record.raster.entities.size(); ++row)
-        record.rests.push_back(
-            frame.entities[row].motion == shader::kNoMotion && !record.raster.deforms[row]
-        );
+    record.rests = frame.atRest;
     record.lights = frame.lights;
     record.background = frame.constants.background;
     record.ambient = frame.constants.ambient;
     record.flags = frame.constants.flags;
+    record.shadows = context.view.shadows;
+    record.shadowRevision = context.shadowRevision;
     return record;
 }
 
-void StaticLayer::compare(Record& now, const Record& last) {
-    mFrame.mayDiffer = last.hasPassers || now.background != last.background ||
-                       now.ambient != last.ambient || now.flags != last.flags ||
-                       now.raster.layer != last.raster.layer ||
-                       !hasSameBytes(now.lights, last.lights);
+void StaticLayer::compare(const Record& now, const Record& last) {
+    mFrame.mayDiffer =
+        last.hasPassers || now.background != last.background || now.ambient != last.ambient ||
+        now.flags != last.flags || now.raster.layer != last.raster.layer ||
+        !isSame(now.shadows, last.shadows) || now.shadowRevision != last.shadowRevision ||
+        !hasSameBytes(now.lights, last.lights);
     const std::vector<uint32_t> nowRows = extract::findRows(last.raster, now.raster.entities);
-    std::vector<bool> isKnown(now.rests.size(), false);
+    const std::vector<uint32_t> nowShapes = listShapes(now.raster);
+    const std::vector<uint32_t> lastShapes = listShapes(last.raster);
+    const auto hasSameShape = [&](size_t before, uint32_t current) {
+        const uint32_t a = lastShapes[before];
+        const uint32_t b = nowShapes[current];
+        return a == extract::kNoRow || b == extract::kNoRow
+                   ? a == b
+                   : extract::isSame(last.raster.shapes[a].pose, now.raster.shapes[b].pose);
+    };
     for (size_t row = 0; row < nowRows.size(); ++row) {
-        const uint32_t current = nowRows[row];
-        if (current != extract::kNoRow) {
-            const bool isSame =
-                last.raster.worldFromObject[row] == now.raster.worldFromObject[current] &&
-                last.meshes[row] == now.meshes[current];
-            now.rests[current] = now.rests[current] && isSame;
-            isKnown[current] = last.rests[row];
-        }
         if (!last.rests[row])
             continue;
-        if (current != extract::kNoRow && now.rests[current])
+        const uint32_t current = nowRows[row];
+        if (current != extract::kNoRow && now.rests[current] &&
+            last.raster.worldFromObject[row] == now.raster.worldFromObject[current] &&
+            last.meshes[row] == now.meshes[current] && hasSameShape(row, current)) {
             mNowRows[row] = current;
-        else
+            mStates[current] = shader::kStaticRow;
+        } else {
             mFrame.mayDiffer = true;
+        }
     }
     mNowRows.back() = uint32_t(now.rests.size()); // the sky's
-    for (size_t row = 0; row < now.rests.size(); ++row) {
-        mStates[row] = shader::kMovingRow;
-        if (!now.rests[row])
-            continue;
-        mStates[row] = isKnown[row] ? shader::kStaticRow : shader::kNewRow;
-        mFrame.mayDiffer = mFrame.mayDiffer || !isKnown[row];
-    }
+    mFrame.mayDiffer = mFrame.mayDiffer ||
+                       std::find(mStates.begin(), mStates.end(), shader::kNewRow) != mStates.end();
 }
 
 void StaticLayer::extract(const render::ExtractContext& context) {
@@ -106,11 +110,10 @@ void StaticLayer::extract(const render::ExtractContext& context) {
     mFrame = {};
     mHasLast = isAfter && now.raster.unjitteredFromWorld == mRecord->raster.unjitteredFromWorld &&
                extract::showsTheSame(context.world, context.view, context.motion, mRecord->raster);
-    mFrame.isCameraAtRest =
-        (mHasLast || !mRecord) && isHeld(context, now.raster.unjitteredFromWorld);
+    mFrame.isCameraAtRest = context.frame.isCameraAtRest;
     mStates.clear();
     for (const bool rests : now.rests)
-        mStates.push_back(rests ? shader::kStaticRow : shader::kMovingRow);
+        mStates.push_back(rests ? shader::kNewRow : shader::kMovingRow);
     mStates.push_back(shader::kStaticRow); // the sky
     mNowRows.assign(mRecord ? mRecord->rests.size() + 1 : 1, extract::kNoRow);
     if (mHasLast)

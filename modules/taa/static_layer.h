@@ -51,19 +51,19 @@ class StaticLayer {
     struct Record {
         extract::RasterRecord raster;
         std::vector<uint32_t> meshes; ///< by row
-        /// By row: it does not move during the exposure, and has not moved since the frame before.
-        std::vector<bool> rests;
+        std::vector<bool> rests;      ///< ExtractedFrame::atRest
         std::vector<shader::LightRow> lights;
         math::vec4 background{0.0f};
         math::vec4 ambient{0.0f};
-        uint32_t flags = 0;      ///< of shader::FrameConstants
-        bool hasPassers = false; ///< something moves that is blended over what is static
+        uint32_t flags = 0; ///< of shader::FrameConstants
+        extract::ShadowSettings shadows;
+        uint64_t shadowRevision = 0; ///< ExtractContext's
+        bool hasPassers = false;     ///< something moves that is blended over what is static
     };
 
     [[nodiscard]] static Record makeRecord(const render::ExtractContext& context);
-    /// \param now what has moved since `last` does not rest afterwards
     /// \param last of the same view, from before
-    void compare(Record& now, const Record& last);
+    void compare(const Record& now, const Record& last);
     [[nodiscard]] shader::StaticRows writeRows(gpu::Buffer& buffer) const;
 
     gpu::Device& mDevice;

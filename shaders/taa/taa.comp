@@ -65,7 +65,7 @@ Neighbourhood lookAround(ivec2 pixel) {
         [[dont_unroll]] for (int x = 0; x < 3; ++x) {
             ivec2 at = pixel + ivec2(x, y) - 1;
             if (stateOf(rowAt(at)) == kMovingRow) continue;
-            vec3 color = ycocgFromRgb(compress(textureLod(uColor, uvOf(at), 0.0f).rgb));
+            vec3 color = ycocgFromRgb(compress(storableColor(textureLod(uColor, uvOf(at), 0.0f).rgb)));
             around.moments = addColor(around.moments, color);
             float weight = columns[x] * rows[y];
             around.middle += weight * color;
@@ -112,7 +112,7 @@ void main() {
         Neighbourhood around = kNowhere;
         if (isNew || isDoubted) around = lookAround(pixel);
         // What nothing is known of is seen through all samples around: one alone would flicker.
-        kept = isNew ? Kept(expand(rgbFromYcocg(around.middle)), 1.0f)
+        kept = isNew ? Kept(storableColor(expand(rgbFromYcocg(around.middle))), 1.0f)
                      : mixWithLast(color, before.kept, params.leastShare, isDoubted, around.moments);
         color = kept.color;
         isDoubted = mayDiffer;

@@ -266,10 +266,18 @@ TEST_F(JitterOfStatic, WhatMovesOrDeformsOrMovedSinceTheLastFrameIsSampledAtTheC
     path.keys[1].position = math::dvec3(-2.0, 1.0, -8.0);
     path.keys[0].position = math::dvec3(-2.0, 0.0, -8.0);
     world.registry.add(parked, path);
+    const ecs::Entity waving = addBox({0.0, 2.0, -8.0});
+    world.registry.add(
+        waving, scene::VertexWaves{.waves = {{.displacement = {1, 0, 0}, .hertz = 0.7}}}
+    );
+    scene::Primitive box;
+    box.positions = {{-1, -1, -1}, {1, 1, 1}, {1, -1, 1}};
+    layout.reaches.assign(layout.bounds.size(), scene::computePoseReach({&box, 1}));
     for (const double exposure : {0.25, 0.0}) {
         setExposure(exposure);
         const std::vector<math::dvec2> shifts = findShiftsPx();
-        ASSERT_EQ(shifts.size(), 3u);
+        ASSERT_EQ(shifts.size(), 4u);
+        EXPECT_EQ(shifts[3], math::dvec2(0.0)) << exposure;
         expectMoved(shifts[0]);
         EXPECT_EQ(shifts[1], math::dvec2(0.0)) << exposure;
         EXPECT_EQ(shifts[2], math::dvec2(0.0)) << exposure;
