@@ -26,6 +26,7 @@ class LoadedShader {
             vkCreateShaderModule(device.handle(), &info, nullptr, &mModule),
             fmt::format("loading the shader '{}'", name)
         );
+        device.setName(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(mModule), name);
     }
 
     ~LoadedShader() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
