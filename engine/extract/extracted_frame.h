@@ -84,7 +84,7 @@ struct ViewRequest {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
-    /// Added to it in the raster, under a camera that does not move, of entities without motion.
+    /// Added to lodBias in the raster for entities without motion, if the camera does not move.
     float staticLodBias = 0.0f;
     bool unlit = false; ///< base colour only
     /// Where the scene has an environment: it is seen and lights, in place of the two colours.

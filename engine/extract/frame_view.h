@@ -66,7 +66,7 @@ class FrameView {
     /// Within the exposure.
     [[nodiscard]] bool moves() const { return mMoves; }
 
-    /// Of the frame before, at its raster instant; null unless Jittered::Static.
+    /// Motion of the previous frame's exposure; null unless ViewRequest::jittered is Static.
     [[nodiscard]] const scene::ExposureMotion* before() const {
         return mBefore ? &*mBefore : nullptr;
     }

@@ -97,7 +97,8 @@ struct ExtractContext {
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
     bool rasterHasParticles = false; ///< they are drawn into its colour
-    /// Changes whenever shadows do, but for those that ShadowConstants::tiles tells of.
+    /// Changes whenever shadow maps of lights do. Shadows of movers with layers of their own are
+    /// not in it: ShadowConstants::tiles bounds them.
     uint64_t shadowRevision = 0;
     /// What is drawn over the effect's picture (PostEffect::askParticles); null: nothing.
     const extract::ParticleTables* particles = nullptr;

@@ -129,8 +129,8 @@ struct FrameConstants {
     vec4 ambient;          // uniform radiance from everywhere, linear RGB
     vec2 sizePx;           // picture's width and height
     vec2 pixelFootprint;   // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
-    float lodBias;         // added to every texture level of detail, but for
-    float staticLodBias;   // ... the raster's of entities that do not move in the picture
+    float lodBias;         // added to every texture level of detail, except as below
+    float staticLodBias;   // added instead in the raster where an entity has no motion
     uint flags;            // kFrame...
     uint lightCount;
     uint entityCount; // rows of `entities`: no row is read for a mesh id that is not below it

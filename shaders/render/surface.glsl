@@ -6,7 +6,7 @@
 #include "render/scene_bindings.glsl"
 #include "render/texture_lod.glsl"
 
-/// Of textures' levels.
+/// Bias of the level of detail that textures are read at.
 #ifndef SHUTTER_LOD_BIAS
 #define SHUTTER_LOD_BIAS(frame) frame.value.lodBias
 #endif

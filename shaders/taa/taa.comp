@@ -55,7 +55,7 @@ struct Neighbourhood {
 const Neighbourhood kNowhere =
     Neighbourhood(ColorMoments(vec3(0.0f), vec3(0.0f), 0.0f), vec3(0.0f));
 
-/// Of a static pixel.
+/// \param pixel one that shows something static
 Neighbourhood lookAround(ivec2 pixel) {
     vec3 columns = findMiddleWeights(params.jitterPx.x);
     vec3 rows = findMiddleWeights(params.jitterPx.y);

@@ -242,7 +242,7 @@ class TaaChange : public TaaLaw {
 
     static bool isMiddle(uint32_t x, uint32_t y) { return x > 37 && x < 58 && y > 21 && y < 42; }
 
-    /// Of the middle, in parts of what no anti-aliasing has.
+    /// Error in the middle, relative to the error without anti-aliasing.
     double measureShare() {
         return measureError(AntiAliasing::Taa, isMiddle) /
                measureError(AntiAliasing::None, isMiddle);
