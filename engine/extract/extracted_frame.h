@@ -81,6 +81,8 @@ struct ViewRequest {
     FrameFit frameFit = FrameFit::Whole;
     math::dvec2 jitterPx{0.0}; ///< moves the sample inside the pixel, [-0.5, 0.5]
     Jittered jittered = Jittered::All;
+    /// Edges are drawn with several samples per pixel while the camera moves, where the device can.
+    bool samplesEdges = false;
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper

@@ -5,6 +5,7 @@
 #include "engine/core/log.h"
 #include "engine/core/whole_file.h"
 #include "engine/gpu/device_features.h"
+#include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline_cache.h"
 
 #include <algorithm>
@@ -220,6 +221,24 @@ void Device::loadFunctions() {
         load(mFunctions.cmdEndDebugUtilsLabel, "vkCmdEndDebugUtilsLabelEXT");
         load(mFunctions.setDebugUtilsObjectName, "vkSetDebugUtilsObjectNameEXT");
     }
+}
+
+bool Device::canDrawSamples(VkFormat format, uint32_t count) const {
+    const bool isColor = (aspectOf(format) & VK_IMAGE_ASPECT_COLOR_BIT) != 0;
+    const VkImageUsageFlags usage =
+        isColor ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    VkImageFormatProperties properties{};
+    return mLimits.standardSampleLocations &&
+           vkGetPhysicalDeviceImageFormatProperties(
+               mInfo.handle,
+               format,
+               VK_IMAGE_TYPE_2D,
+               VK_IMAGE_TILING_OPTIMAL,
+               usage | VK_IMAGE_USAGE_SAMPLED_BIT,
+               0,
+               &properties
+           ) == VK_SUCCESS &&
+           (properties.sampleCounts & count) != 0;
 }
 
 void Device::loadLimits() {

@@ -165,6 +165,10 @@ class Device {
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
 
+    /// Whether images of the format can be drawn with that many samples per pixel, at Vulkan's
+    /// standard locations, and be sampled.
+    [[nodiscard]] bool canDrawSamples(VkFormat format, uint32_t count) const;
+
     /// Whether compute pipelines can be made with subgroups of that many invocations.
     [[nodiscard]] bool canRequireSubgroupSize(uint32_t size) const {
         return size >= mLeastSubgroupSize && size <= mMostSubgroupSize;

@@ -263,7 +263,7 @@ Image Image::createUnbound(Device& device, std::string name, const ImageDesc& de
     info.extent = {desc.width, desc.height, 1};
     info.mipLevels = desc.mipLevels;
     info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.samples = static_cast<VkSampleCountFlagBits>(desc.samples);
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = desc.usage;
     require(

@@ -74,7 +74,8 @@ struct ImageDesc {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkImageUsageFlags usage = 0;
     uint32_t mipLevels = 1;
-    uint32_t layer = 0; ///< of an adopted image that has several: the one that is used
+    uint32_t samples = 1; ///< per pixel
+    uint32_t layer = 0;   ///< of an adopted image that has several: the one that is used
 
     bool operator==(const ImageDesc&) const = default;
 };

@@ -67,6 +67,7 @@ struct GraphicsPipelineDesc {
     VkCompareOp depthCompare = VK_COMPARE_OP_GREATER; ///< reversed depth
     bool depthWrite = true;
     Blend blend = Blend::None;
+    uint32_t samples = 1; ///< per pixel of all targets
 };
 
 /// A compute, graphics or ray-tracing pipeline with its layout. Cull mode is dynamic for graphics.

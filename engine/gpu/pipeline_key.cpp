@@ -60,6 +60,7 @@ std::string makePipelineKey(const GraphicsPipelineDesc& desc) {
     key.add(desc.depthCompare);
     key.add(desc.depthWrite);
     key.add(desc.blend);
+    key.add(desc.samples);
     return key.take();
 }
 

@@ -22,6 +22,7 @@ gpu::ImageDesc describe(const TransientImageDesc& desc, VkImageUsageFlags usage)
     result.height = desc.height;
     result.format = desc.format;
     result.usage = usage;
+    result.samples = desc.samples;
     return result;
 }
 

@@ -37,6 +37,7 @@ struct TransientImageDesc {
     uint32_t width = 1;
     uint32_t height = 1;
     VkFormat format = VK_FORMAT_UNDEFINED;
+    uint32_t samples = 1; ///< per pixel; several: drawn into and sampled, nothing else
 
     bool operator==(const TransientImageDesc&) const = default;
 };

@@ -58,6 +58,21 @@ core::Status checkImports(const Graph& graph) {
     return {};
 }
 
+core::Status checkSamples(const PassRecord& pass, const ResourceRecord& resource, Access access) {
+    const bool mayHaveSeveral =
+        access == Access::ColorAttachment || access == Access::DepthAttachment ||
+        access == Access::SampledCompute || access == Access::SampledFragment;
+    if (!resource.isImage || resource.imageDesc.samples == 1 || mayHaveSeveral)
+        return {};
+    return core::makeError(
+        "pass '{}' uses '{}' as {}, but it has {} samples per pixel",
+        pass.name,
+        resource.name,
+        describe(access),
+        resource.imageDesc.samples
+    );
+}
+
 core::Status checkFormat(const PassRecord& pass, const ResourceRecord& resource, Access access) {
     const VkFormat format = resource.imageDesc.format;
     if (!resource.isImage || format == VK_FORMAT_UNDEFINED)
@@ -107,6 +122,7 @@ core::Status checkUse(const Graph& graph, const PassRecord& pass, const Resource
         return core::makeError(
             "pass '{}' reads '{}' that no pass writes", pass.name, resource.name
         );
+    SHUTTER_TRY(checkSamples(pass, resource, use.access));
     return checkFormat(pass, resource, use.access);
 }
 
@@ -149,6 +165,15 @@ core::Status checkAttachments(const Graph& graph, const PassRecord& pass) {
                 other.name,
                 b.width,
                 b.height
+            );
+        if (a.samples != b.samples)
+            return core::makeError(
+                "pass '{}' draws into '{}' with {} samples per pixel and '{}' with {}",
+                pass.name,
+                first.name,
+                a.samples,
+                other.name,
+                b.samples
             );
     }
     return {};

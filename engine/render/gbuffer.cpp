@@ -9,6 +9,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
+#include "shaders/render/split_samples_shared.h"
 
 #include <utility>
 
@@ -16,10 +17,6 @@ namespace shutter::render {
 
 namespace {
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat kMotionDepthFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kEntityIdFormat = VK_FORMAT_R32_UINT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 using Variant = GBufferPass::Variant;
@@ -32,7 +29,10 @@ uint32_t blendConstantOf(Variant variant) {
 }
 
 gpu::GraphicsPipelineDesc describeGeometry(
-    const gpu_scene::GpuScene& scene, Variant variant, bool moves, bool mayHaveShadows
+    const gpu_scene::GpuScene& scene,
+    Variant variant,
+    bool moves,
+    const GBufferPass::Targets& targets
 ) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
@@ -41,9 +41,10 @@ gpu::GraphicsPipelineDesc describeGeometry(
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {
-        variant == Variant::Masked, blendConstantOf(variant), moves, mayHaveShadows};
+        variant == Variant::Masked, blendConstantOf(variant), moves, targets.mayHaveShadows};
     desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
+    desc.samples = targets.samples;
     desc.depthWrite = blendConstantOf(variant) == 0;
     if (variant == Variant::Blended)
         desc.blend = gpu::Blend::Over;
@@ -52,8 +53,9 @@ gpu::GraphicsPipelineDesc describeGeometry(
     return desc;
 }
 
-gpu::GraphicsPipelineDesc describeSky(const gpu_scene::GpuScene& scene) {
-    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false, false);
+gpu::GraphicsPipelineDesc
+describeSky(const gpu_scene::GpuScene& scene, const GBufferPass::Targets& targets) {
+    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false, targets);
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
     desc.fragmentSpirv = render_sky_frag;
@@ -69,6 +71,14 @@ Variant variantOf(const extract::SceneLayout::GeometryInfo& info) {
     if (info.alphaMode != scene::AlphaMode::Blend)
         return Variant::Opaque;
     return info.premultiplies ? Variant::Premultiplied : Variant::Blended;
+}
+
+bool maySample(const gpu::Device& device) {
+    for (const VkFormat format :
+         {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat, kDepthFormat})
+        if (!device.canDrawSamples(format, shader::kSampleCount))
+            return false;
+    return true;
 }
 
 /// Records the draws of one frame.
@@ -144,43 +154,52 @@ class Recorder {
 } // namespace
 
 GBufferPass::Pipelines::Pipelines(
-    gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant, bool mayHaveShadows
+    gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant, const Targets& targets
 )
-    : still(device, describeGeometry(scene, variant, false, mayHaveShadows)),
-      moving(device, describeGeometry(scene, variant, true, mayHaveShadows)) {}
+    : still(device, describeGeometry(scene, variant, false, targets)),
+      moving(device, describeGeometry(scene, variant, true, targets)) {}
 
 GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
-    : mDevice(device), mScene(scene), mSky(device, describeSky(scene)) {}
-
-const GBufferPass::Variants& GBufferPass::findVariants(bool mayHaveShadows) {
-    if (mVariants[mayHaveShadows])
-        return *mVariants[mayHaveShadows];
-    Variants& variants = mVariants[mayHaveShadows].emplace();
-    for (const extract::SceneLayout::GeometryInfo& info : mScene.layout().geometries) {
-        const Variant variant = variantOf(info);
-        if (auto& pipelines = variants[size_t(variant)]; !pipelines)
-            pipelines.emplace(mDevice, mScene, variant, mayHaveShadows);
-    }
-    return variants;
+    : mDevice(device), mScene(scene), mSplit(device), mMaySample(maySample(device)) {
+    (void)findDrawers({});
 }
 
-GBuffer GBufferPass::declare(
-    graph::Graph& graph,
-    const std::string& name,
-    const extract::ExtractedFrame& frame,
-    const gpu_scene::GpuScene& scene,
-    std::span<const graph::BufferHandle> reads,
-    VkDeviceAddress frameConstants
-) {
-    const Variants& variants = findVariants((frame.constants.flags & shader::kFrameShadows) != 0);
-    const auto width = static_cast<uint32_t>(frame.constants.sizePx.x);
-    const auto height = static_cast<uint32_t>(frame.constants.sizePx.y);
+const GBufferPass::Drawers& GBufferPass::findDrawers(const Targets& targets) {
+    auto& found = mDrawers.at((targets.mayHaveShadows ? 1 : 0) + (targets.samples > 1 ? 2 : 0));
+    if (found)
+        return *found;
+    Drawers& drawers = found.emplace();
+    drawers.sky = gpu::Pipeline(mDevice, describeSky(mScene, targets));
+    for (const extract::SceneLayout::GeometryInfo& info : mScene.layout().geometries) {
+        const Variant variant = variantOf(info);
+        if (auto& pipelines = drawers.variants[size_t(variant)]; !pipelines)
+            pipelines.emplace(mDevice, mScene, variant, targets);
+    }
+    return drawers;
+}
+
+GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const Source& source) {
+    const extract::ExtractedFrame& frame = source.frame;
+    const gpu_scene::GpuScene& scene = source.scene;
+    const bool mayHaveShadows = (frame.constants.flags & shader::kFrameShadows) != 0;
+    const bool isSampled = source.samplesEdges && mMaySample;
+    const uint32_t samples = isSampled ? shader::kSampleCount : 1;
+    const Drawers& drawers = findDrawers({mayHaveShadows, samples});
+    const auto create = [&](const char* label, VkFormat format) {
+        return graph.createImage(
+            label,
+            {static_cast<uint32_t>(frame.constants.sizePx.x),
+             static_cast<uint32_t>(frame.constants.sizePx.y),
+             format,
+             samples}
+        );
+    };
     GBuffer targets;
-    targets.color = graph.createImage("color", {width, height, kColorFormat});
-    targets.normal = graph.createImage("normal", {width, height, kNormalFormat});
-    targets.motionDepth = graph.createImage("motion depth", {width, height, kMotionDepthFormat});
-    targets.entityId = graph.createImage("entity id", {width, height, kEntityIdFormat});
-    const auto depth = graph.createImage("depth buffer", {width, height, kDepthFormat});
+    targets.color = create("color", kColorFormat);
+    targets.normal = create("normal", kNormalFormat);
+    targets.motionDepth = create("motion depth", kMotionDepthFormat);
+    targets.entityId = create("entity id", kEntityIdFormat);
+    const auto depth = create("depth buffer", kDepthFormat);
 
     struct Data {};
 
@@ -188,7 +207,7 @@ GBuffer GBufferPass::declare(
         name,
         graph::PassKind::Raster,
         [&](graph::PassBuilder& builder, Data&) {
-            for (const graph::BufferHandle buffer : reads)
+            for (const graph::BufferHandle buffer : source.reads)
                 if (buffer.isValid())
                     builder.read(buffer, graph::Access::ShaderRead);
             const auto zero = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f);
@@ -199,25 +218,25 @@ GBuffer GBufferPass::declare(
                 builder.colorTarget(targets.entityId, graph::ClearColor::uints(shader::kNoEntity));
             (void)builder.depthTarget(depth, 0.0f);
         },
-        [this, &variants, &frame, &scene, frameConstants](
+        [&drawers, &frame, &scene, constants = source.frameConstants](
             const Data&, graph::PassContext& context
         ) {
-            Recorder recorder(context.frame, frame, scene, frameConstants);
+            Recorder recorder(context.frame, frame, scene, constants);
             vkCmdBindIndexBuffer(context.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
             for (const bool masked : {false, true})
                 frame.opaque.forEach([&](const extract::DrawItem& item) {
                     if ((item.alphaMode == scene::AlphaMode::Mask) == masked)
-                        recorder.draw(variants, item);
+                        recorder.draw(drawers.variants, item);
                 });
-            recorder.bind(mSky);
+            recorder.bind(drawers.sky);
             recorder.drawScreen();
             frame.blended.forEach([&](const extract::DrawItem& item) {
                 if (!frame.isInLayer(item.entity))
-                    recorder.draw(variants, item);
+                    recorder.draw(drawers.variants, item);
             });
         }
     );
-    return targets;
+    return isSampled ? mSplit.declare(graph, targets, source.keepsEdges) : targets;
 }
 
 } // namespace shutter::render

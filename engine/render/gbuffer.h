@@ -4,7 +4,8 @@
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
-#include "engine/graph/graph.h"
+#include "engine/render/gbuffer_images.h"
+#include "engine/render/sample_split.h"
 
 #include <array>
 #include <cstdint>
@@ -14,29 +15,24 @@
 
 namespace shutter::render {
 
-/// What the raster pass leaves. Formats are chosen for one nearest fetch a tap (lavapipe) and for
-/// motion to a hundredth of a pixel.
-struct GBuffer {
-    graph::ImageHandle color;  ///< RGBA16F, linear HDR, at most kMaxColor
-    graph::ImageHandle normal; ///< RGBA16F, xyz unit, world axes; 0 where nothing is
-    graph::ImageHandle
-        motionDepth; ///< RGBA32F: motion.xy pixels open to close, depth metres along the view
-    graph::ImageHandle entityId; ///< R32_UINT: row of the entity table, or kNoEntity
-};
-
 /// The pipelines of the G-buffer; one per scene (they know its texture table).
 class GBufferPass {
   public:
     enum class Variant : uint8_t { Opaque, Masked, Blended, Premultiplied };
 
+    /// What pipelines are specialised for.
+    struct Targets {
+        bool mayHaveShadows = false; ///< false: for frames in which no light casts any
+        uint32_t samples = 1;        ///< per pixel, 1 or shader::kSampleCount
+    };
+
     /// The pipelines of one variant.
     struct Pipelines {
-        /// \param mayHaveShadows false: for frames in which no light casts any
         Pipelines(
             gpu::Device& device,
             const gpu_scene::GpuScene& scene,
             Variant variant,
-            bool mayHaveShadows
+            const Targets& targets
         );
 
         gpu::Pipeline still;  ///< of entities that have no motion: works out none and writes 0
@@ -48,26 +44,38 @@ class GBufferPass {
 
     GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);
 
-    /// Declares the pass; the first frame with shadows, and the first without, makes pipelines.
-    /// `frame` and `scene` must live until it has been recorded.
+    /// What a frame is drawn from.
+    struct Source {
+        const extract::ExtractedFrame& frame;
+        const gpu_scene::GpuScene& scene;
+        std::span<const graph::BufferHandle> reads; ///< by addresses; invalid ones are passed over
+        VkDeviceAddress frameConstants = 0;
+        bool samplesEdges = false; ///< ViewRequest::samplesEdges
+        bool keepsEdges = false;   ///< GBuffer::edgeSurface is read
+    };
+
+    /// Declares the pass; the first frame with shadows, and the first without, makes pipelines, and
+    /// so does the first with several samples. What `source` refers to must live until it has been
+    /// recorded.
     /// \param name of the pass
-    /// \param reads what its shaders reach by addresses; invalid ones are passed over
-    [[nodiscard]] GBuffer declare(
-        graph::Graph& graph,
-        const std::string& name,
-        const extract::ExtractedFrame& frame,
-        const gpu_scene::GpuScene& scene,
-        std::span<const graph::BufferHandle> reads,
-        VkDeviceAddress frameConstants
-    );
+    [[nodiscard]] GBuffer
+    declare(graph::Graph& graph, const std::string& name, const Source& source);
 
   private:
-    const Variants& findVariants(bool mayHaveShadows);
+    /// The pipelines of one kind of target.
+    struct Drawers {
+        Variants variants;
+        gpu::Pipeline sky;
+    };
+
+    const Drawers& findDrawers(const Targets& targets);
 
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    std::array<std::optional<Variants>, 2> mVariants; ///< by whether lights may cast shadows
-    gpu::Pipeline mSky;
+    /// By whether lights may cast shadows, and 2 more with several samples.
+    std::array<std::optional<Drawers>, 4> mDrawers;
+    SampleSplit mSplit;
+    bool mMaySample; ///< the device can draw several samples per pixel
 };
 
 } // namespace shutter::render

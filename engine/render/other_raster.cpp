@@ -47,7 +47,8 @@ OtherRasterView OtherRaster::declare(
     const char* name,
     const gpu_scene::GpuScene& scene,
     GBufferPass& pass,
-    const ShadowPipelines* shadows
+    const ShadowPipelines* shadows,
+    bool keepsEdges
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);
     mTables.updateEntities(*mFrame);
@@ -56,8 +57,9 @@ OtherRasterView OtherRaster::declare(
     if (shadows != nullptr)
         shadowMaps =
             mShadows->declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
+    const std::array reads{shapes.buffer, shadowMaps};
     const GBuffer gbuffer = pass.declare(
-        graph, name, *mFrame, scene, std::array{shapes.buffer, shadowMaps}, tables.constants
+        graph, name, {*mFrame, scene, reads, tables.constants, mView.samplesEdges, keepsEdges}
     );
     return {gbuffer, mFrame, shapes, &mView};
 }

@@ -46,12 +46,14 @@ class OtherRaster {
     /// Declares the passes of what was extracted, which must live until they have been recorded.
     /// \param name of the pass that draws it
     /// \param shadows null: lights cast none
+    /// \param keepsEdges GBuffer::edgeSurface is read
     [[nodiscard]] OtherRasterView declare(
         graph::Graph& graph,
         const char* name,
         const gpu_scene::GpuScene& scene,
         GBufferPass& pass,
-        const ShadowPipelines* shadows
+        const ShadowPipelines* shadows,
+        bool keepsEdges
     );
 
   private:

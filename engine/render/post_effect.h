@@ -183,6 +183,10 @@ class PostEffect {
     /// The rasters of the context are not there yet.
     [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
 
+    /// Whether it tells the surfaces at an edge apart (GBuffer::edgeSurface): colours there are of
+    /// one surface then, and the mean of all samples else. Counts when it runs.
+    [[nodiscard]] virtual bool readsEdges() const { return false; }
+
     /// Whether particles are drawn over its picture, on their way through the exposure, and not
     /// into the raster: whether or not it runs.
     [[nodiscard]] virtual core::Decision askParticles(const ViewFacts&) const { return {}; }

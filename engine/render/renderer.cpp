@@ -374,13 +374,16 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     }
     scene.shadowMaps = rays.shadowBuffer;
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
+    const std::array reads{scene.shapes.buffer, rays.shadowBuffer};
     scene.gbuffer = mGBufferPass.declare(
         graph,
         "G-buffer",
-        frame,
-        mScene,
-        std::array{scene.shapes.buffer, rays.shadowBuffer},
-        rays.frameConstants
+        {frame,
+         mScene,
+         reads,
+         rays.frameConstants,
+         request.view.samplesEdges && !frame.isCameraAtRest,
+         running.readsEdges}
     );
     if (!running.particles.run && !particles.empty())
         scene.gbuffer.color = declareParticles(
@@ -397,7 +400,9 @@ void Renderer::declareEffects(
     RunningEffects& running = parts.running;
     Explainer& explainer = parts.explainer;
     const auto declareOther = [&](OtherRaster& other, const char* name) {
-        return other.declare(graph, name, mScene, mGBufferPass, mShadowPipelines.get());
+        return other.declare(
+            graph, name, mScene, mGBufferPass, mShadowPipelines.get(), running.readsEdges
+        );
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;

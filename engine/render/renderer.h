@@ -171,6 +171,7 @@ class Renderer {
         core::Decision lastRaster;
         core::Decision layer;
         bool mayTrace = false;    ///< in another frame, if not in this
+        bool readsEdges = false;  ///< PostEffect::readsEdges of one of them
         core::Decision particles; ///< run: they are drawn on their way through the exposure ...
         size_t particlesAt = 0;   ///< ... after as many of `effects`
     };

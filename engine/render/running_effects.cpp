@@ -52,6 +52,7 @@ Renderer::RunningEffects Renderer::askEffects(
         const core::Decision secondRaster = effect->askSecondRaster(facts);
         const core::Decision lastRaster = effect->askLastRaster(context);
         running.effects.push_back({effect, secondRaster.run, lastRaster.run});
+        running.readsEdges = running.readsEdges || effect->readsEdges();
         running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
         join(running.timedRays, effect->name(), timedRays);
@@ -94,6 +95,8 @@ core::Status Renderer::extractForEffects(
         view.jitterPx = math::dvec2(0.0);
         view.staticLodBias = 0.0f;
     }
+    // As this frame is drawn.
+    view.samplesEdges = view.samplesEdges && !context.frame.isCameraAtRest;
     if (running.secondRaster.run)
         SHUTTER_TRY(
             slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(view), hidden)

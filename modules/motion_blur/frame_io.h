@@ -32,6 +32,7 @@ struct LentRaster {
     graph::ImageHandle color;       ///< RGBA16F, sharp
     graph::ImageHandle motionDepth; ///< RGBA32F
     graph::ImageHandle entityId;    ///< R32_UINT
+    bool hasEdges = false;          ///< the raster had a MotionBlurInputs::edgeSurface
 };
 
 /// A raster of the world at the other end of the exposure, with entity ids of its own.
@@ -39,6 +40,7 @@ struct SecondRaster {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F, of which only the depth is read
     graph::ImageHandle entityId;    ///< R32_UINT
+    bool hasEdges = false;          ///< the raster had a MotionBlurInputs::edgeSurface
 };
 
 /// Rasters that methods look things up in, as kRasterLayer and the others in resolved.glsl.
@@ -79,8 +81,12 @@ struct MotionBlurInputs {
     bool motionIsCameras = false;
     graph::ImageHandle normal;   ///< RGBA16F: xyz unit; for Method::readsNormal
     graph::ImageHandle entityId; ///< R32_UINT; for Method::readsEntityId
-    double rasterTime = 1.0;     ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
-    glm::uvec2 response{0u};     ///< address of shader::ResponseTable; 0: a box
+    /// RGBA32_UINT: what covers samples of a pixel that its own surface does not, where the fourth
+    /// channel of `motionDepth` has a bit for each of them (render::GBuffer); for
+    /// Method::readsInstantMotions. Invalid: there is one sample per pixel.
+    graph::ImageHandle edgeSurface;
+    double rasterTime = 1.0; ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
+    glm::uvec2 response{0u}; ///< address of shader::ResponseTable; 0: a box
     /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS nothing but
     /// sky lies behind what moves and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;

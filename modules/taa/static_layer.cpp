@@ -105,12 +105,15 @@ void StaticLayer::compare(const Record& now, const Record& last) {
 }
 
 void StaticLayer::extract(const render::ExtractContext& context) {
+    mFrame = {};
+    if (!context.frame.isCameraAtRest) {
+        mRecord.reset();
+        return;
+    }
     Record now = makeRecord(context);
     const bool isAfter = mRecord && mRecord->raster.seconds <= now.raster.seconds;
-    mFrame = {};
     mHasLast = isAfter && now.raster.unjitteredFromWorld == mRecord->raster.unjitteredFromWorld &&
                extract::showsTheSame(context.world, context.view, context.motion, mRecord->raster);
-    mFrame.isCameraAtRest = context.frame.isCameraAtRest;
     mStates.clear();
     for (const bool rests : now.rests)
         mStates.push_back(rests ? shader::kNewRow : shader::kMovingRow);

@@ -28,7 +28,6 @@ class StaticLayer {
         const Images* last = nullptr; ///< null: nothing is known from before
         const Images* kept = nullptr; ///< for this frame's
         shader::StaticRows rows{};
-        bool isCameraAtRest = false; ///< false: nothing is static
         /// What is static may look different than in the last frame: a light, an entity that casts
         /// shadows or what is blended over it may be another.
         bool mayDiffer = false;
@@ -39,8 +38,11 @@ class StaticLayer {
     /// Finds what is static. A view's frames come in their order.
     void extract(const render::ExtractContext& context);
 
-    /// \param context of the frame that extract() was called for; the slot's last frame must be
-    /// finished
+    /// The camera of the frame that extract() was called for is at rest: else nothing is static.
+    [[nodiscard]] bool isGathering() const { return mRecord.has_value(); }
+
+    /// \param context of the frame that extract() was called for, which gathers; the slot's last
+    /// frame must be finished
     [[nodiscard]] Frame turn(const render::PostContext& context);
 
     /// The next frame has none before it; the memory goes once the GPU is done with it.

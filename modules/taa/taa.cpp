@@ -73,7 +73,6 @@ shader::TaaParams makeParams(const render::PostContext& context, const StaticLay
     params.frame = gpu::splitAddress(context.frameConstants);
     params.rows = frame.rows;
     params.leastShare = 1.0f / float(kMostFrames);
-    params.isCameraAtRest = frame.isCameraAtRest ? 1 : 0;
     params.hasLast = frame.last ? 1 : 0;
     params.mayDiffer = frame.mayDiffer ? 1 : 0;
     return params;
@@ -99,6 +98,7 @@ extract::ViewRequest makeJittered(const extract::ViewRequest& view, int64_t fram
     extract::ViewRequest jittered = view;
     jittered.jitterPx = computeJitterPx(frameNumber);
     jittered.jittered = extract::Jittered::Static;
+    jittered.samplesEdges = true;
     jittered.lodBias = view.lodBias + kLodBias;
     jittered.staticLodBias = kStaticLodBias;
     return jittered;
@@ -119,6 +119,8 @@ void Taa::extract(render::ExtractContext& context) {
 }
 
 void Taa::declare(render::PostContext& context) {
+    if (!mStatic.isGathering())
+        return;
     graph::Graph& graph = context.graph;
     const StaticLayer::Frame frame = mStatic.turn(context);
     const shader::TaaParams params = makeParams(context, frame);

@@ -19,16 +19,16 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_rays.glsl"
 
-layout(binding = 22, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 23) uniform accelerationStructureEXT uScene;
+layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 24) uniform accelerationStructureEXT uScene;
 
 void main() {
-    uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
+    uint entryIndex = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
                  gl_LocalInvocationIndex;
-    if (index >= uCounters.listedPixels) return;
+    if (entryIndex >= uCounters.listedPixels) return;
     float shares[kSampleClasses];
     shareRays(shares);
-    uvec2 entry = uListed[index];
+    uvec2 entry = uListed[entryIndex];
     if (!mayTrace(entry.y, shares)) return;
     ivec2 pixel = ivec2(entry.x & 0xFFFFu, entry.x >> 16);
     PixelSearch search = beginSearch(pixel);
@@ -41,9 +41,10 @@ void main() {
         // not the same instants.
         uint traced = addGuesses(search, pixel, first, shares, guesses, mean);
         for (; traced != 0u; traced &= traced - 1u) {
+            uint index = first + uint(findLSB(traced));
             DistributedSample ray = traceDistributed(
-                uScene, FrameRef(method.frame), TimedRef(method.timed), search.x,
-                timeOf(motions, instantOf(search, first + uint(findLSB(traced))))
+                uScene, FrameRef(method.frame), TimedRef(method.timed), placeOfRay(search, index),
+                timeOf(motions, instantOf(search, index))
             );
             mean.sum += storableColor(ray.radiance);
             ++mean.known;

@@ -18,10 +18,10 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_rays.glsl"
 
-layout(binding = 22, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 23, scalar) readonly buffer AskedSamples { SampleHeader uHeader; };
-layout(binding = 24, scalar) readonly buffer Answers { vec4 uAnswers[]; };
-layout(binding = 25, scalar) readonly buffer FirstSamples { uint uFirst[]; };
+layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 24, scalar) readonly buffer AskedSamples { SampleHeader uHeader; };
+layout(binding = 25, scalar) readonly buffer Answers { vec4 uAnswers[]; };
+layout(binding = 26, scalar) readonly buffer FirstSamples { uint uFirst[]; };
 
 void main() {
     uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +

@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_search.glsl"
 
-layout(binding = 22, scalar) buffer Surfaces {
+layout(binding = 23, scalar) buffer Surfaces {
     InstantSurfaces uHead;
     uint uWords[];
 };
@@ -66,7 +66,7 @@ void main() {
             uint taken = takenInstant(i, uHead.instantCount, params.sampleCount);
             uint instant = taken * method.setCount + search.set;
             Doubt doubt = kNoDoubt;
-            Seen seen = searchInstant(search, instant, guesses, doubt);
+            Seen seen = searchPlace(search, instant, guesses, doubt);
             if (seen.isFound) {
                 bool isPlane = seen.key == kNoKey;
                 depth = isPlane ? depthOfPlane(search, seen, instant) : seen.depth;

@@ -17,15 +17,15 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_rays.glsl"
 
-layout(binding = 22, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 23, scalar) buffer AskedSamples {
+layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 24, scalar) buffer AskedSamples {
     SampleHeader uHeader;
     AskedSample uAsked[];
 };
-layout(binding = 24, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
+layout(binding = 25, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
 /// Where each listed pixel's samples begin in the list; kNoSamples: it requests none.
-layout(binding = 25, scalar) writeonly buffer FirstSamples { uint uFirst[]; };
-layout(binding = 26, scalar) buffer Groups { DispatchArguments uGroups; };
+layout(binding = 26, scalar) writeonly buffer FirstSamples { uint uFirst[]; };
+layout(binding = 27, scalar) buffer Groups { DispatchArguments uGroups; };
 
 const uint kMostChunks = 8u; // of 32 samples
 

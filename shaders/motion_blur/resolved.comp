@@ -17,11 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_hidden.glsl"
 
-#define SHUTTER_BLOCK_LIST_BINDING 22
+#define SHUTTER_BLOCK_LIST_BINDING 23
 #include "motion_blur/block_list.glsl"
 
-layout(binding = 23, scalar) buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 24, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+layout(binding = 24, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 25, scalar) buffer ListArguments { DispatchArguments uListArguments; };
 
 /// For the pass that traces: the pixel and which classes its samples have.
 void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {
@@ -51,13 +51,14 @@ void main() {
     uint fromSecond = 0u;
     uint fromLast = 0u;
     uint searched = params.sampleCount;
-    // Rays may go to any of them.
-    if (!kFindsEdges && params.uniformMotionPx > 0.0f) searched = uLooks[search.looks - 1u].perX;
+    // Rays may go to any of them, and an edge takes several also where the motion is short.
+    if (!kFindsEdges && params.uniformMotionPx > 0.0f && !search.isAtEdge)
+        searched = uLooks[search.looks - 1u].perX;
     for (uint i = 0u; i < searched; ++i) {
         uint taken = takenInstant(i, searched, params.sampleCount);
         uint instant = taken * method.setCount + search.set;
         Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, instant, guesses, doubt);
+        Seen seen = searchInstant(search, i, instant, guesses, doubt);
         vec3 color = vec3(0.0f);
         if (seen.isFound) {
             color = colorOf(seen);

@@ -12,6 +12,7 @@
 #include "common/picture_space.glsl"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/resolved_shared.h"
+#include "render/scene_shared.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InstantMotionsRef {
     InstantMotions value;
@@ -67,16 +68,24 @@ bool isStillMover(LayerMotion layer, uint mover) {
 /// A direction has no place: its depth is 1 and it is not displaced.
 float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; }
 
-// A pixel of a surface image: bits of the depth; key, and a bit for each corner of the pixel, set if the
-// four pixels that meet there are of one entity.
+// A pixel of a surface image: bits of the depth; key, a bit for each corner of the pixel, set if the
+// four pixels that meet there are of one entity, and a bit for each sample that another surface covers
+// (render/split_samples_shared.h).
 const uint kKeyBits = 0xFFFFFFu;
 const uint kCornerShift = 24u;
+const uint kSampleShift = 28u;
 
 /// Bit of a set of keys; some share one.
 uint keyBit(uint key) { return 1u << (key & 31u); }
 
 uint keyOf(uvec2 surface) { return surface.y & kKeyBits; }
-uint innerCornersOf(uvec2 surface) { return surface.y >> kCornerShift; }
+uint innerCornersOf(uvec2 surface) { return surface.y >> kCornerShift & 0xFu; }
+uint otherSamplesOf(uvec2 surface) { return surface.y >> kSampleShift; }
+
+/// \param id of an image of entity ids
+uint keyOfId(uint id) { return id == kNoEntity ? kSkyKey : min(id, kUnknownKey); }
+
+const uint kAllCorners = 0xFu;
 
 /// \param at place from the pixel's upper left corner
 /// \return whether the four pixels around the place are of one entity

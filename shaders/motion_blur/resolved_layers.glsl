@@ -6,6 +6,7 @@
 
 #include "motion_blur/resolved.glsl"
 #include "motion_blur/resolved_parts.glsl"
+#include "render/split_samples_shared.h"
 
 /// TileCandidates with each candidate as one vector, which is one load.
 struct ReadTile {
@@ -36,12 +37,16 @@ layout(binding = 18, scalar) readonly buffer SecondParts { TilePart uSecondParts
 layout(binding = 19) uniform usampler2D uWays;
 layout(binding = 20) uniform usampler2D uLastWays;
 layout(binding = 21) uniform usampler2D uSecondWays;
+layout(binding = 22) uniform usampler2D uEdgeSurface; // of this frame's raster; with kHasEdges
 
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;
 
 /// Whether something deforms in any of the layers.
 layout(constant_id = 4) const bool kHasParts = true;
+
+/// Whether pixels of this frame's raster may show two surfaces.
+layout(constant_id = 5) const bool kHasEdges = false;
 
 bool isDeformed(uint mover) { return kHasParts && mover == kDeformedMover; }
 
@@ -66,12 +71,42 @@ struct Probe {
 
 vec2 uvOf(vec2 at) { return at * (1.0f / vec2(params.sizePx)); }
 
-Probe fetchSurface(uint layer, ivec2 at) {
+uvec2 readSurface(uint layer, ivec2 at) {
     vec2 uv = uvOf(vec2(at) + 0.5f);
     uvec2 read = layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
                                        : textureLod(uLastSurface, uv, 0.0f).xy;
-    if (isSecond(layer)) read = textureLod(uSecondSurface, uv, 0.0f).xy;
+    return isSecond(layer) ? textureLod(uSecondSurface, uv, 0.0f).xy : read;
+}
+
+Probe probeOf(uvec2 read) {
     return Probe(keyOf(read), uintBitsToFloat(read.x), innerCornersOf(read));
+}
+
+/// The pixel's own surface.
+Probe fetchSurface(uint layer, ivec2 at) { return probeOf(readSurface(layer, at)); }
+
+/// Whether another surface than the pixel's own is nearest to the place. The pixel's centre is its own.
+bool isOfOther(uint layer, vec2 at, uvec2 read) {
+    if (!kHasEdges || layer != kRasterLayer || otherSamplesOf(read) == 0u) return false;
+    vec2 from = fract(at);
+    return from != vec2(0.5f) && (otherSamplesOf(read) >> nearestSample(from) & 1u) != 0u;
+}
+
+/// The other surface of a pixel of this frame's raster.
+Probe fetchOther(ivec2 at) {
+    uvec2 other = textureLod(uEdgeSurface, uvOf(vec2(at) + 0.5f), 0.0f).xy;
+    return Probe(keyOfId(other.y), max(uintBitsToFloat(other.x), 0.0f), 0u);
+}
+
+vec3 fetchOtherColor(ivec2 at) {
+    uvec2 color = textureLod(uEdgeSurface, uvOf(vec2(at) + 0.5f), 0.0f).zw;
+    return vec3(unpackHalf2x16(color.x), unpackHalf2x16(color.y).x);
+}
+
+/// The surface at a place between the centres of pixels.
+Probe fetchSurfaceAt(uint layer, vec2 at) {
+    uvec2 read = readSurface(layer, ivec2(at));
+    return isOfOther(layer, at, read) ? fetchOther(ivec2(at)) : probeOf(read);
 }
 
 vec3 fetchColor(uint layer, ivec2 at) {
@@ -127,14 +162,15 @@ bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
     return equal(keys & kKeyBits, uvec4(key));
 }
 
-/// Bilinear among the pixels of the entity, one of which holds the place. What is linear in the
-/// picture of a plane is its depth before an orthographic camera, the inverse before a perspective
-/// one.
-float interpolateDepth(uint layer, uint key, vec2 at, bool perspective) {
+/// Bilinear among the pixels of the entity. What is linear in the picture of a plane is its depth
+/// before an orthographic camera, the inverse before a perspective one.
+/// \param nearest depth at the place's pixel, which may have it of another surface than its own
+float interpolateDepth(uint layer, uint key, vec2 at, float nearest, bool perspective) {
     Footprint footprint = footprintOf(at);
     vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, footprint));
     vec4 depths = gatherDepths(layer, footprint);
     float sum = dot(weights, vec4(1.0f));
+    if (kHasEdges && sum == 0.0f) return nearest;
     return perspective ? sum / dot(weights, 1.0f / depths) : dot(weights, depths) / sum;
 }
 
@@ -176,6 +212,11 @@ vec3 interpolateColor(Seen seen) {
 
 /// A place at a pixel's centre has that pixel's bits.
 vec3 colorOf(Seen seen) {
+    if (kHasEdges && !seen.isInner) {
+        ivec2 texel = ivec2(seen.at);
+        if (isOfOther(seen.layer, seen.at, readSurface(seen.layer, texel)))
+            return fetchOtherColor(texel);
+    }
     return fract(seen.at) == vec2(0.5f) ? fetchColor(seen.layer, ivec2(seen.at))
                                         : interpolateColor(seen);
 }

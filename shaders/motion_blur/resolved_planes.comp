@@ -39,8 +39,11 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
     for (int y = 0; y < size.y; ++y) {
         // All of a row is on its way before one is looked at.
         uint keys[kGroupSize];
-        for (int x = 0; x < int(kGroupSize); ++x)
-            keys[x] = keyOf(fetchSurface(first + ivec2(min(x, size.x - 1), y)));
+        for (int x = 0; x < int(kGroupSize); ++x) {
+            uvec2 surface = fetchSurface(first + ivec2(min(x, size.x - 1), y));
+            keys[x] = keyOf(surface);
+            hasOne = hasOne && otherSamplesOf(surface) == 0u;
+        }
         for (int x = 0; x < int(kGroupSize); ++x) {
             uint key = keys[x];
             if (key == lastKey) continue;

@@ -25,6 +25,11 @@ bool isTraced(ivec2 pixel, uint index, float share) {
 /// In the tables.
 uint instantOf(PixelSearch search, uint index) { return index * method.setCount + search.set; }
 
+/// Where in the pixel the ray of a sample starts.
+vec2 placeOfRay(PixelSearch search, uint index) {
+    return kHasEdges ? placeInPixel(search, index) : search.centre;
+}
+
 /// What is known of a pixel's samples.
 struct Mean {
     vec3 sum;
@@ -39,11 +44,11 @@ struct LookedUp {
 };
 
 LookedUp lookUpAgain(
-    PixelSearch search, ivec2 pixel, uint index, float shares[kSampleClasses], inout Guesses guesses
+    inout PixelSearch search, ivec2 pixel, uint index, float shares[kSampleClasses], inout Guesses guesses
 ) {
     Doubt doubt = kNoDoubt;
     uint instant = instantOf(search, index);
-    Seen seen = searchInstant(search, instant, guesses, doubt);
+    Seen seen = searchInstant(search, index, instant, guesses, doubt);
     vec3 color = vec3(0.0f);
     bool isKnown = seen.isFound;
     if (seen.isFound) {
@@ -64,7 +69,7 @@ void addKnown(LookedUp looked, inout Mean mean) {
 
 /// Adds those of 32 samples that are not traced. \return those that are, a bit each
 uint addGuesses(
-    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
+    inout PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
     inout Mean mean
 ) {
     uint traced = 0u;

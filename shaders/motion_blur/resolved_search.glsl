@@ -111,14 +111,15 @@ bool searchRigid(
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
-        Probe surface = fetchSurface(layer, texel);
+        Probe surface = fetchSurfaceAt(layer, at);
         if (surface.key != key) {
             noteMiss(layer, key, at, doubt);
             return false;
         }
         float layerDepth =
-            spreadPx > kInterpolatedSpreadPx ? interpolateDepth(layer, key, at, perspective)
-                                             : surface.depth;
+            spreadPx > kInterpolatedSpreadPx
+                ? interpolateDepth(layer, key, at, surface.depth, perspective)
+                : surface.depth;
         float depth =
             dot(instantDepthRow, pictureSpace(at, depthOfKey(key, layerDepth), perspective));
         if (perspective && depth < kLeastDepth) return false;
@@ -129,7 +130,7 @@ bool searchRigid(
             at = next;
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
             if (way > kTolerancePx || !isInside(at)) return false;
-            if (ivec2(at) != texel && fetchSurface(layer, ivec2(at)).key != key) {
+            if ((kHasEdges || ivec2(at) != texel) && fetchSurfaceAt(layer, at).key != key) {
                 noteMiss(layer, key, at, doubt);
                 return false;
             }
@@ -154,7 +155,7 @@ uint searchInner(
     vec2 at = placeOn(ray, guess.along, perspective);
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
-    Probe surface = fetchSurface(layer, ivec2(texel));
+    Probe surface = fetchSurfaceAt(layer, at);
     if (surface.key != guess.key) {
         noteMiss(layer, guess.key, at, doubt);
         return kMissed;
@@ -223,7 +224,9 @@ void searchDepths(
 
 /// What the searches of one pixel share.
 struct PixelSearch {
-    vec2 x;
+    vec2 x;        // the place that is searched from
+    vec2 centre;   // of the pixel
+    bool isAtEdge; // an edge was near at the instant before: the next has a place of its own
     uint tile;
     bool perspective;
     uint looks;  // index of the first BlockLook of its block
@@ -266,7 +269,7 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     vec2 at = projectPicture(inRaster, pixel.perspective);
     if (!isInside(at)) return false;
     if (fromCentre(at) > fromCentre(found.at)) return false;
-    Probe surface = fetchSurface(kRasterLayer, ivec2(at));
+    Probe surface = fetchSurfaceAt(kRasterLayer, at);
     return surface.key != row &&
            behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
 }
@@ -319,7 +322,10 @@ PixelSearch beginSearch(ivec2 pixel) {
     uvec2 tiles = countTiles(params.sizePx);
     uvec2 tile = uvec2(pixel) / kCandidateTilePx;
     PixelSearch search;
-    search.x = vec2(pixel) + 0.5f;
+    search.centre = vec2(pixel) + 0.5f;
+    search.x = search.centre;
+    search.isAtEdge =
+        kHasEdges && innerCornersOf(readSurface(kRasterLayer, pixel)) != kAllCorners;
     search.tile = tile.y * tiles.x + tile.x;
     uvec2 block = uvec2(pixel) / kGroupSize;
     uint blocksAcross = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
@@ -344,6 +350,12 @@ PixelSearch beginSearch(ivec2 pixel) {
     return search;
 }
 
+/// Where in the pixel a sample of it is that has an edge near: spread evenly, also among those close in
+/// time (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+vec2 placeInPixel(PixelSearch pixel, uint index) {
+    return pixel.centre + fract(0.5f + float(index) * vec2(0.7548776662f, 0.5698402910f)) - 0.5f;
+}
+
 /// What is known before the first instant.
 Guesses beginGuesses(PixelSearch pixel) {
     return Guesses(
@@ -353,7 +365,7 @@ Guesses beginGuesses(PixelSearch pixel) {
 }
 
 /// \param instant of the tables
-Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
+Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
     if (kHasCrowds && pixel.isCrowded) return searchCrowds(pixel, instant);
     uint slots = ~0u;
     if (params.uniformMotionPx > 0.0f) {
@@ -374,6 +386,17 @@ Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout
         seen = pixel.lastStill;
         searchLayer(kLastLayer, pixel.last, pixel, instant, ~0u, guesses.last, seen, doubt);
     }
+    return seen;
+}
+
+/// \param index of the sample among the pixel's
+/// \param instant of the tables
+Seen searchInstant(
+    inout PixelSearch pixel, uint index, uint instant, inout Guesses guesses, inout Doubt doubt
+) {
+    if (kHasEdges) pixel.x = pixel.isAtEdge ? placeInPixel(pixel, index) : pixel.centre;
+    Seen seen = searchPlace(pixel, instant, guesses, doubt);
+    pixel.isAtEdge = !(seen.isFound && seen.isInner);
     return seen;
 }
 

@@ -5,11 +5,11 @@
 #define SHUTTER_RESOLVED_SURFACE_GLSL
 
 #include "motion_blur/resolved.glsl"
-#include "render/scene_shared.h"
 
 /// Whether pixels with motion vectors of 0 get no corners. No sample is looked up in them as a rule; one
 /// that is all the same takes the way for edges, which is longer.
 layout(constant_id = 0) const bool kSkipsStill = false;
+layout(constant_id = 1) const bool kHasEdges = false; // pixels may show two surfaces
 
 /// For the next frame, where the pass does so.
 void keepColor(ivec2 pixel);
@@ -20,19 +20,23 @@ layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform usampler2D uEntityId;
 layout(binding = 2, rg32ui) uniform writeonly uimage2D uSurface;
 
-uint fetchKey(ivec2 at) {
-    // texelFetch is slow on software devices
-    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
-    uint id = textureLod(uEntityId, uv, 0.0f).x;
-    return id == kNoEntity ? kSkyKey : min(id, kUnknownKey);
+// texelFetch is slow on software devices
+vec2 uvOf(ivec2 at) { return (vec2(at) + 0.5f) / vec2(params.sizePx); }
+
+uint fetchKey(ivec2 at) { return keyOfId(textureLod(uEntityId, uvOf(at), 0.0f).x); }
+
+uint fetchOtherSamples(ivec2 at) {
+    return kHasEdges ? uint(textureLod(uMotionDepth, uvOf(at), 0.0f).w) : 0u;
 }
 
 /// A bit for each corner of the pixel: the four pixels that meet there are of one entity. The picture
 /// goes on as it ends.
 uint findInnerCorners(ivec2 pixel, uint key) {
     bool isSame[9];
-    for (int i = 0; i < 9; ++i)
-        isSame[i] = i == 4 || fetchKey(pixel + ivec2(i % 3 - 1, i / 3 - 1)) == key;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = pixel + ivec2(i % 3 - 1, i / 3 - 1);
+        isSame[i] = i == 4 || (fetchKey(at) == key && fetchOtherSamples(at) == 0u);
+    }
     return (isSame[0] && isSame[1] && isSame[3] ? 1u : 0u) |
            (isSame[1] && isSame[2] && isSame[5] ? 2u : 0u) |
            (isSame[3] && isSame[6] && isSame[7] ? 4u : 0u) |
@@ -44,13 +48,17 @@ void main() {
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     keepColor(pixel);
     uint key = fetchKey(pixel);
-    vec3 motionDepth =
-        textureLod(uMotionDepth, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).xyz;
+    vec4 motionDepth = textureLod(uMotionDepth, uvOf(pixel), 0.0f);
+    uint others = kHasEdges ? uint(motionDepth.w) : 0u;
     uint corners = 0u;
-    if (!kSkipsStill || motionDepth.xy != vec2(0.0f)) corners = findInnerCorners(pixel, key);
+    if (others == 0u && (!kSkipsStill || motionDepth.xy != vec2(0.0f)))
+        corners = findInnerCorners(pixel, key);
     imageStore(
         uSurface, pixel,
-        uvec4(floatBitsToUint(max(motionDepth.z, 0.0f)), key | corners << kCornerShift, 0u, 0u)
+        uvec4(
+            floatBitsToUint(max(motionDepth.z, 0.0f)),
+            key | corners << kCornerShift | others << kSampleShift, 0u, 0u
+        )
     );
 }
 

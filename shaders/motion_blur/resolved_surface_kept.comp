@@ -9,6 +9,5 @@ layout(binding = 3) uniform sampler2D uColor;
 layout(binding = 4, rgba16f) uniform writeonly image2D uKeptColor;
 
 void keepColor(ivec2 pixel) {
-    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx);
-    imageStore(uKeptColor, pixel, textureLod(uColor, uv, 0.0f));
+    imageStore(uKeptColor, pixel, textureLod(uColor, uvOf(pixel), 0.0f));
 }

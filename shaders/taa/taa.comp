@@ -43,7 +43,7 @@ uint rowAt(ivec2 pixel) {
 }
 
 uint stateOf(uint row) {
-    return params.isCameraAtRest != 0u ? RowTable(params.rows.states).values[row] : kMovingRow;
+    return RowTable(params.rows.states).values[row];
 }
 
 /// The static ones of a pixel and those around it.
@@ -84,7 +84,7 @@ struct Before {
 
 Before fetchBefore(ivec2 pixel) {
     Before before = Before(Kept(vec3(0.0f), 0.0f), kNoRow, false);
-    if (params.hasLast == 0u || params.isCameraAtRest == 0u) return before;
+    if (params.hasLast == 0u) return before;
     uint read = textureLod(uLastRow, uvOf(pixel), 0.0f).r;
     if (read == kNoRow) return before;
     uint row = RowTable(params.rows.nowRows).values[min(read & ~kDoubted, params.rows.lastCount)];

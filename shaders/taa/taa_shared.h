@@ -29,17 +29,16 @@ struct TaaParams {
     vec2 jitterPx; // of this frame's static samples: right and down, in its pixels
     uvec2 frame;   // address of FrameConstants
     StaticRows rows;
-    float leastShare;    // of this frame in what is kept, (0, 1]
-    uint isCameraAtRest; // 0: nothing is static
-    uint hasLast;        // 1: colours were kept
-    uint mayDiffer;      // 1: what is static may look different than in the last frame
+    float leastShare; // of this frame in what is kept, (0, 1]
+    uint hasLast;     // 1: colours were kept
+    uint mayDiffer;   // 1: what is static may look different than in the last frame
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::StaticRows) == 24);
-static_assert(sizeof(shutter::shader::TaaParams) == 64);
+static_assert(sizeof(shutter::shader::TaaParams) == 60);
 #endif
 
 #endif

@@ -40,14 +40,15 @@ gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
 constexpr uint32_t kWithSecond = 1;
 constexpr uint32_t kWithCrowds = 2;
 constexpr uint32_t kWithParts = 4;
-constexpr uint32_t kPipelineCount = 8;
+constexpr uint32_t kWithEdges = 8;
+constexpr uint32_t kPipelineCount = 16;
 
 /// \param desc with constants 0 and 1, if it has any
 gpu::ComputePipelineDesc specialize(gpu::ComputePipelineDesc desc, uint32_t bits) {
     desc.specialization.resize(2);
     if (bits & kWithCrowds)
         desc.specialization[0] = shader::kCandidateList;
-    for (const uint32_t bit : {kWithSecond, kWithCrowds, kWithParts})
+    for (const uint32_t bit : {kWithSecond, kWithCrowds, kWithParts, kWithEdges})
         desc.specialization.push_back(bits & bit ? 1u : 0u);
     return desc;
 }
@@ -133,11 +134,13 @@ Starts createStarts(
 std::vector<VkDescriptorType> listSearchBindings() {
     return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer, kBuffer,
             kBuffer,  kSampled, kSampled, kBuffer,  kSampled, kSampled, kBuffer, kSampled,
-            kBuffer,  kBuffer,  kBuffer,  kSampled, kSampled, kSampled};
+            kBuffer,  kBuffer,  kBuffer,  kSampled, kSampled, kSampled, kSampled};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
     builder.read(motionDepth, Access::SampledCompute);
+    if (edgeSurface.isValid())
+        builder.read(edgeSurface, Access::SampledCompute);
     for (const SurfaceLayer& layer : {layers.raster, layers.second, layers.last})
         for (const graph::ImageHandle image : {layer.color, layer.surface})
             if (image.isValid())
@@ -189,6 +192,10 @@ gpu::BindingList SearchResources::bind(
         bindings.sampled(
             resources.view(image.isValid() ? image : layers.raster.surface), device.nearestSampler()
         );
+    bindings.sampled(
+        resources.view(edgeSurface.isValid() ? edgeSurface : layers.raster.surface),
+        device.nearestSampler()
+    );
     return bindings;
 }
 
@@ -208,6 +215,8 @@ const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool ha
         });
     if (hasParts || mAlwaysHasParts)
         bits |= kWithParts;
+    if (search.edgeSurface.isValid())
+        bits |= kWithEdges;
     return mPipelines.at(bits).get();
 }
 
@@ -255,6 +264,7 @@ LookUpOutputs LookUp::add(
     SearchResources& search = outputs.search;
     search.layers = mLayers.add(graph, inputs, params, hasLast);
     search.motionDepth = inputs.motionDepth;
+    search.edgeSurface = inputs.edgeSurface;
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
     Clears clears;

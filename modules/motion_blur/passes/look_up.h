@@ -20,11 +20,12 @@
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 21 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 22 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     SurfaceLayersOutputs layers;
     graph::ImageHandle motionDepth; ///< of this frame's raster
+    graph::ImageHandle edgeSurface; ///< MotionBlurInputs::edgeSurface
     SortedCandidates candidates;
     graph::BufferHandle crowds; ///< of Crowds; invalid: no tile can be crowded
     graph::BufferHandle looks;  ///< of BlockLooks
@@ -49,7 +50,7 @@ struct ListedPixels {
 /// The pipelines of a pass that searches.
 class SearchPipelines {
   public:
-    /// \param desc whose constants 2 to 4 are set here (resolved_layers.glsl,
+    /// \param desc whose constants 2 to 5 are set here (resolved_layers.glsl,
     /// resolved_crowd_search.glsl)
     SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
 
@@ -125,7 +126,7 @@ class LookUp {
     uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };
 
-/// Bindings 0 to 21 of a pipeline that searches.
+/// Bindings 0 to 22 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur

@@ -16,16 +16,16 @@ using graph::Access;
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_UINT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
-gpu::ComputePipelineDesc describePack(bool skipsStill) {
+gpu::ComputePipelineDesc describePack(bool skipsStill, bool hasEdges) {
     gpu::ComputePipelineDesc desc = describePass(
         "pack surface", motion_blur_resolved_surface_comp, {kSampled, kSampled, kStorage}
     );
-    desc.specialization = {skipsStill ? 1u : 0u};
+    desc.specialization = {skipsStill ? 1u : 0u, hasEdges ? 1u : 0u};
     return desc;
 }
 
-gpu::ComputePipelineDesc describePackKept() {
-    gpu::ComputePipelineDesc desc = describePack(true);
+gpu::ComputePipelineDesc describePackKept(bool hasEdges) {
+    gpu::ComputePipelineDesc desc = describePack(true, hasEdges);
     desc.spirv = motion_blur_resolved_surface_kept_comp;
     desc.interface.bindings.insert(desc.interface.bindings.end(), {kSampled, kStorage});
     return desc;
@@ -69,8 +69,9 @@ importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLa
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
     : mKeepsByTransfer(isSoftware(device)), mSampler(device.nearestSampler()),
-      mPack(device, describePack(true)), mPackKept(device, describePackKept()),
-      mPackWhole(device, describePack(false)) {}
+      mPack{{device, describePack(true, false)}, {device, describePack(true, true)}},
+      mPackKept{{device, describePackKept(false)}, {device, describePackKept(true)}},
+      mPackWhole{{device, describePack(false, false)}, {device, describePack(false, true)}} {}
 
 SurfaceLayersOutputs SurfaceLayers::add(
     graph::Graph& graph, const MotionBlurInputs& inputs, const PassParams& params, bool wantLast
@@ -79,15 +80,16 @@ SurfaceLayersOutputs SurfaceLayers::add(
     SurfaceLayersOutputs outputs;
     const auto& lent = inputs.instantMotions->lent;
     const auto pack = [&](graph::ImageHandle color,
-                          const gpu::LazyPipeline& pipeline,
+                          const Pack& pipeline,
                           graph::ImageHandle motionDepth,
-                          graph::ImageHandle entityId) {
+                          graph::ImageHandle entityId,
+                          bool hasEdges) {
         const SurfaceLayer target{{}, createSurface(graph, params)};
-        const PackInputs raster{motionDepth, entityId, {}};
+        const PackInputs raster{motionDepth, entityId, hasEdges, {}};
         return SurfaceLayer{color, addPack(graph, pipeline, raster, target, params).surface};
     };
     if (wantLast && lent)
-        outputs.last = pack(lent->color, mPack, lent->motionDepth, lent->entityId);
+        outputs.last = pack(lent->color, mPack, lent->motionDepth, lent->entityId, lent->hasEdges);
     else if (wantLast)
         outputs.last = importRaster(graph, history->newest(), kKeptLayout);
     if (history && inputs.instantMotions->keepsRaster) {
@@ -95,25 +97,31 @@ SurfaceLayersOutputs SurfaceLayers::add(
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
         if (mKeepsByTransfer) {
             const auto kept = addKeepColor(graph, inputs.color, target.color);
-            const PackInputs raster{inputs.motionDepth, inputs.entityId, {}};
+            const PackInputs raster{
+                inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid(), {}};
             outputs.raster = {kept, addPack(graph, mPack, raster, target, params).surface};
         } else {
-            const PackInputs raster{inputs.motionDepth, inputs.entityId, inputs.color};
+            const PackInputs raster{
+                inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid(), inputs.color};
             outputs.raster = addPack(graph, mPackKept, raster, target, params);
         }
         graph.markOutput(outputs.raster.color);
         graph.markOutput(outputs.raster.surface);
     } else {
-        outputs.raster = pack(inputs.color, mPack, inputs.motionDepth, inputs.entityId);
+        outputs.raster = pack(
+            inputs.color, mPack, inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid()
+        );
     }
     if (const auto& second = inputs.instantMotions->second)
-        outputs.second = pack(second->color, mPackWhole, second->motionDepth, second->entityId);
+        outputs.second = pack(
+            second->color, mPackWhole, second->motionDepth, second->entityId, second->hasEdges
+        );
     return outputs;
 }
 
 SurfaceLayer SurfaceLayers::addPack(
     graph::Graph& graph,
-    const gpu::LazyPipeline& pack,
+    const Pack& pack,
     const PackInputs& raster,
     const SurfaceLayer& target,
     const PassParams& params
@@ -146,7 +154,9 @@ SurfaceLayer SurfaceLayers::addPack(
                 if (data.raster.color.isValid())
                     bindings.sampled(resources.view(data.raster.color), mSampler)
                         .storage(resources.image(data.packed.color));
-                dispatchPixels(context, pack.get(), bindings, params, params.sizePx);
+                const gpu::Pipeline& pipeline =
+                    (data.raster.hasEdges ? pack.edges : pack.single).get();
+                dispatchPixels(context, pipeline, bindings, params, params.sizePx);
             }
         )
         .packed;

@@ -31,10 +31,17 @@ class SurfaceLayers {
     ) const;
 
   private:
+    /// A pass for rasters with one sample per pixel and with several.
+    struct Pack {
+        gpu::LazyPipeline single;
+        gpu::LazyPipeline edges;
+    };
+
     /// What is packed of a raster.
     struct PackInputs {
         graph::ImageHandle motionDepth;
         graph::ImageHandle entityId;
+        bool hasEdges = false;    ///< motionDepth has bits of samples (MotionBlurInputs)
         graph::ImageHandle color; ///< copied as well, by mPackKept; invalid: it is not
     };
 
@@ -42,7 +49,7 @@ class SurfaceLayers {
     /// \return target, as written
     [[nodiscard]] SurfaceLayer addPack(
         graph::Graph& graph,
-        const gpu::LazyPipeline& pack,
+        const Pack& pack,
         const PackInputs& raster,
         const SurfaceLayer& target,
         const PassParams& params
@@ -52,9 +59,9 @@ class SurfaceLayers {
     /// for it if most of a picture is static.
     bool mKeepsByTransfer;
     VkSampler mSampler;
-    gpu::LazyPipeline mPack;
-    gpu::LazyPipeline mPackKept;  ///< keeps the colour, too
-    gpu::LazyPipeline mPackWhole; ///< of rasters whose motion vectors say nothing
+    Pack mPack;
+    Pack mPackKept;  ///< keeps the colour, too
+    Pack mPackWhole; ///< of rasters whose motion vectors say nothing
 };
 
 } // namespace shutter::motion_blur

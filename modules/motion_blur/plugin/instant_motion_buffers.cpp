@@ -83,10 +83,16 @@ InstantMotions InstantMotionBuffers::declare(const render::PostContext& context)
     motions.drawWays = declareWays(context);
     if (const render::OtherRasterView* const second = context.secondRaster)
         motions.second = SecondRaster{
-            second->gbuffer.color, second->gbuffer.motionDepth, second->gbuffer.entityId};
+            second->gbuffer.color,
+            second->gbuffer.motionDepth,
+            second->gbuffer.entityId,
+            second->gbuffer.edgeSurface.isValid()};
     if (const render::OtherRasterView* const last = context.lastRaster)
-        motions.lent =
-            LentRaster{last->gbuffer.color, last->gbuffer.motionDepth, last->gbuffer.entityId};
+        motions.lent = LentRaster{
+            last->gbuffer.color,
+            last->gbuffer.motionDepth,
+            last->gbuffer.entityId,
+            last->gbuffer.edgeSurface.isValid()};
     if (!mHasHistory)
         return motions;
     motions.history = &mHistory;

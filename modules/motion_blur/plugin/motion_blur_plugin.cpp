@@ -115,6 +115,10 @@ core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts& facts) co
     return {true, "its method has rays with times of their own"};
 }
 
+bool MotionBlurPlugin::readsEdges() const {
+    return settings().method->readsInstantMotions;
+}
+
 core::Decision MotionBlurPlugin::askLayer(const render::ViewFacts&) const {
     if (!settings().method->readsRaster)
         return {false, "its method draws them itself"};
@@ -163,6 +167,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.motionDepth = context.gbuffer.motionDepth;
     inputs.normal = context.gbuffer.normal;
     inputs.entityId = context.gbuffer.entityId;
+    inputs.edgeSurface = context.gbuffer.edgeSurface;
     inputs.rasterTime = context.facts.rasterTime;
     inputs.frameNumber = scene::numberFrame(context.view.exposure);
     inputs.response = gpu::splitAddress(context.response);

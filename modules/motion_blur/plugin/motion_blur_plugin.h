@@ -54,6 +54,7 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
     /// For methods that blur the raster.
+    [[nodiscard]] bool readsEdges() const override;
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
 
     /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Makes one surface per pixel, and at edges two, of a raster with several samples.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/gbuffer_images.h"
+
+namespace shutter::render {
+
+class SampleSplit {
+  public:
+    explicit SampleSplit(gpu::Device& device);
+
+    /// \param samples a raster of shader::kSampleCount samples per pixel
+    /// \param keepsEdges GBuffer::edgeSurface is read: a pixel there has its own surface's colour
+    /// \return one sample per pixel
+    [[nodiscard]] GBuffer
+    declare(graph::Graph& graph, const GBuffer& samples, bool keepsEdges) const;
+
+  private:
+    gpu::Device& mDevice;
+    gpu::LazyPipeline mPipeline;
+};
+
+} // namespace shutter::render

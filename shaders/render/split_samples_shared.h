@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// A raster with several samples per pixel as one surface per pixel and, at edges of what moves,
+// another one.
+#ifndef SHUTTER_SPLIT_SAMPLES_SHARED_H
+#define SHUTTER_SPLIT_SAMPLES_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// Samples of a pixel, where more than one is drawn: Vulkan's standard locations.
+SHUTTER_CONST uint kSampleCount = 4u;
+
+/// Place of a sample from the pixel's upper left corner (Vulkan specification, "Multisampling").
+SHUTTER_INLINE vec2 placeOfSample(uint index) {
+    return vec2(
+        index == 0u ? 0.375f : (index == 1u ? 0.875f : (index == 2u ? 0.125f : 0.625f)),
+        0.125f + 0.25f * float(index)
+    );
+}
+
+/// The sample whose place is nearest; of two as near, the first.
+/// \param at place from the pixel's upper left corner
+SHUTTER_INLINE uint nearestSample(vec2 at) {
+    uint nearest = 0u;
+    float least = 4.0f;
+    for (uint i = 0u; i < kSampleCount; ++i) {
+        vec2 away = at - placeOfSample(i);
+        float square = away.x * away.x + away.y * away.y;
+        if (square < least) {
+            least = square;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+struct SplitParams {
+    uvec2 sizePx;
+    uint keepsEdges; // 1: at edges of what moves a pixel has its own surface's colour; 0: the mean
+    uint padding0;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::SplitParams) == 16);
+#endif
+
+#endif
