@@ -142,7 +142,7 @@ Status CaseStage::provideTruth() {
     if (auto kept = readCachedTruth(cached, mShotOptions.width, mShotOptions.height)) {
         mProgress.advance(mOptions.truthSamples);
         SHUTTER_TRY(writeTruth(files, *kept));
-        mTruth = std::move(kept->display);
+        mTruth = std::move(*kept);
         return {};
     }
     auto drawn = drawTruth();
@@ -151,11 +151,11 @@ Status CaseStage::provideTruth() {
     SHUTTER_TRY(writeTruth(files, drawn.value()));
     if (!cached.display.empty())
         SHUTTER_TRY(writeTruth(cached, drawn.value()));
-    // What is compared is what the file holds: 8 bits a channel.
-    auto read = io::readImage(files.display);
+    // What is compared is what the files hold: 8 bits a channel, and half floats.
+    auto read = readCachedTruth(files, mShotOptions.width, mShotOptions.height);
     if (!read)
-        return read.error();
-    mTruth = std::move(read.value());
+        return core::makeError("'{}' cannot be read again", files.display.string());
+    mTruth = std::move(*read);
     return {};
 }
 
@@ -169,10 +169,9 @@ core::Result<TruthPictures> CaseStage::drawTruth() {
 
 core::Result<render::FrameResult>
 CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
-    // Reading the linear picture back takes time, and the report looks only into those of defaults,
-    // of which one lies on the way of a progressive method.
+    // Reading the linear picture back takes time, and it is compared once.
     const bool isKept = mJournal.find(makeKey(drawn.point)).hasPicture;
-    const bool wantsLinear = !checkpoints.rays.empty() || (drawn.point.isDefault && !isKept);
+    const bool wantsLinear = !checkpoints.rays.empty() || !isKept;
     return drawPicture(drawn, checkpoints, wantsLinear && mOptions.comparePictures);
 }
 
@@ -194,12 +193,12 @@ CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, 
 
 bool CaseStage::isKnown(const SamplePoint& point, uint32_t repeats) const {
     const Record& record = mJournal.find(makeKey(point));
-    return record.samples.size() >= repeats && (record.hasPicture || mTruth.width == 0);
+    return record.samples.size() >= repeats && (record.hasPicture || mTruth.display.width == 0);
 }
 
 Status CaseStage::keepPicture(const SamplePoint& point, const render::FrameResult& drawn) {
     const std::string key = makeKey(point);
-    if (mTruth.width == 0 || mJournal.find(key).hasPicture)
+    if (mTruth.display.width == 0 || mJournal.find(key).hasPicture)
         return {};
     PictureFacts facts;
     facts.image = pictureFile(mCase.name, point.method->name, point.samples);
@@ -209,14 +208,15 @@ Status CaseStage::keepPicture(const SamplePoint& point, const render::FrameResul
     auto picture = io::readImage(file);
     if (!picture)
         return picture.error();
-    const image::FlipResult flip = image::computeFlip(picture.value(), mTruth);
+    const image::FlipResult flip = image::computeFlip(picture.value(), mTruth.display);
     facts.metrics = {
-        {"psnr", image::computePsnr(picture.value(), mTruth)},
-        {"ssim", image::computeSsim(picture.value(), mTruth)},
+        {"psnr", image::computePsnr(picture.value(), mTruth.display)},
+        {"linearPsnr", image::computePsnr(packLinearPicture(drawn.color), mTruth.linear)},
+        {"ssim", image::computeSsim(picture.value(), mTruth.display)},
         {"flip", flip.mean}};
     const fs::path map = mOptions.folder / facts.errorMap;
     SHUTTER_TRY(io::writeImage(map, image::colorWithMagma(flip.errorMap)));
-    if (point.isDefault && drawn.color.width > 0) {
+    if (point.isDefault) {
         facts.linear = fs::path(facts.image).replace_extension(".exr").string();
         SHUTTER_TRY(io::writeImage(
             mOptions.folder / facts.linear,
@@ -260,7 +260,7 @@ core::Result<std::vector<Crop>> CaseStage::chooseCrops() const {
     };
     add(gather.value(), resolved.value(), "where resolved and gather differ most");
     add(gather.value(), resolved.value(), "where they differ second most");
-    add(sharp.value(), mTruth, "where the shutter changes it most");
+    add(sharp.value(), mTruth.display, "where the shutter changes it most");
     return crops;
 }
 

@@ -107,7 +107,7 @@ class CaseStage {
     game::Shot mShot;
     std::optional<tonemap::Tonemap> mTonemap;
     std::unique_ptr<render::Renderer> mRenderer;
-    image::Image mTruth;
+    TruthPictures mTruth; ///< without pixels where nothing is compared
 };
 
 } // namespace shutter::bench

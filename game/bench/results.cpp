@@ -437,7 +437,8 @@ json describeMetrics() {
     return json::array(
         {{{"id", "psnr"}, {"name", "PSNR"}, {"unit", "dB"}, {"better", "higher"}},
          {{"id", "ssim"}, {"name", "SSIM"}, {"unit", ""}, {"better", "higher"}},
-         {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}}}
+         {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}},
+         {{"id", "linearPsnr"}, {"name", "Linear PSNR"}, {"unit", "dB"}, {"better", "higher"}}}
     );
 }
 

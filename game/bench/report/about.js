@@ -31,7 +31,7 @@ function describeMeasuring() {
             "and whiskers are quartiles; the methods took turns within the same run.";
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +
-            `for both (${tonemap}), at 8 bits a channel.`),
+            `for both (${tonemap}), at 8 bits a channel; linear PSNR compares them before it.`),
         el("li", {}, "Times are GPU times of passes by timestamps. The frame is every pass from " +
             "the G-buffer to the linear blurred picture, without the tone map and the reading " +
             "back; the effect is the frame less the G-buffer."),

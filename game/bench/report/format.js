@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Numbers as people read them, and HTML elements.
 
-const kDecimals = {psnr: 2, ssim: 4, flip: 4};
+const kDecimals = {psnr: 2, ssim: 4, flip: 4, linearPsnr: 2};
 
 /** `text` on one line; a missing figure is a dash. */
 function formatNumber(value, decimals) {
