@@ -54,6 +54,30 @@ Status checkFilmSize(const game::PictureSize& size) {
     );
 }
 
+/// What the truth shows of a pixel, and how methods smooth edges.
+Status applyEdges(const BenchArguments& arguments, Suite& suite) {
+    if (arguments.shot.pixel == extract::PixelModel::Box)
+        suite.pixel = arguments.shot.pixel;
+    if (!arguments.antiAliasings.empty()) {
+        if (!suite.axes.empty())
+            return core::makeError("--aa: the suite {} measures times alone", suite.name);
+        suite.antiAliasings.clear();
+    }
+    for (const std::string& word : arguments.antiAliasings) {
+        game::PictureSettings picture;
+        const auto& row = core::getRow(game::listPictureRows(), "antiAliasing");
+        if (const Status parsed = core::parseValue(row, word, picture); !parsed)
+            return core::makeError("--aa: {}", parsed.error().message);
+        if (std::count(
+                suite.antiAliasings.begin(), suite.antiAliasings.end(), picture.antiAliasing
+            ) > 0)
+            return core::makeError("--aa: {} is there twice", word);
+        suite.antiAliasings.push_back(picture.antiAliasing);
+    }
+    spreadAntiAliasing(suite);
+    return {};
+}
+
 core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
     auto suite =
         arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
@@ -116,6 +140,7 @@ core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
     auto suite = chooseSuite(arguments);
     if (!suite)
         return suite.error();
+    SHUTTER_TRY(applyEdges(arguments, suite.value()));
     auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
     if (!methods)
         return methods.error();
@@ -127,7 +152,9 @@ core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
 
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     command.add_option("scene", arguments.shot.scene, "a scene of one's own, instead of --suite");
-    command.add_option("--suite", arguments.suite, "suite: paper, hard, scaling or sequence");
+    command.add_option(
+        "--suite", arguments.suite, "suite: paper, hard, scaling, sequence or edges"
+    );
     command.add_option("--out", arguments.out, "folder for results.json and index.html")
         ->required();
     command
@@ -166,14 +193,22 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     const std::vector<CLI::Option*> before = command.get_options();
     game::defineSceneOptions(command, arguments.shot);
     game::defineShotOptions(command, arguments.shot);
-    // Its pictures are those of the methods alone.
+    // Its pictures are those of the methods alone; --aa takes several words here.
     for (const char* name : {"--aa", "--bloom", "--bloom-threshold", "--bloom-knee"})
         command.remove_option(command.get_option(name));
     for (CLI::Option* option : command.get_options())
-        // How a suite's shots are lit is the only thing that is left open.
-        if (option->get_name() != "--unlit" &&
+        // How a suite's shots are lit and what is true of a pixel are the only things left open.
+        if (option->get_name() != "--unlit" && option->get_name() != "--pixel" &&
             std::find(before.begin(), before.end(), option) == before.end())
             arguments.shotOptions.push_back(option->group("Shot (with a SCENE)"));
+    command
+        .add_option(
+            "--aa",
+            arguments.antiAliasings,
+            "how methods smooth edges, comma-separated: none, taa, box; each case is measured with "
+            "each; default: none, of the suite edges all three"
+        )
+        ->delimiter(',');
 }
 
 } // namespace shutter::bench

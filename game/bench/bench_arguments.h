@@ -26,6 +26,7 @@ struct BenchArguments {
     std::filesystem::path out;
     std::vector<std::string> methods;
     std::vector<std::string> cases;
+    std::vector<std::string> antiAliasings; ///< empty: the suite's own
     std::optional<uint32_t> repeats;
     std::optional<double> limitSeconds;
     std::optional<uint32_t> truthSamples;

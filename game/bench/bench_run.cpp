@@ -31,6 +31,7 @@ class BenchRun {
     BenchRun(gpu::Device& device, const RunOptions& options, const StopQuestion& stop)
         : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
           mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
+          mAntiAliased(makeAntiAliasedPoints(mMethods)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
           mTimesOnly(mOptions), mSequence(options.sequence) {
         mTimesOnly.comparePictures = false;
@@ -40,7 +41,7 @@ class BenchRun {
         describeRun();
         core::Progress progress("measuring", countAllSteps());
         for (const Case& shot : mSuite.cases) {
-            auto result = measureCase(mDevice, shot, mSweep, mOptions, progress, mStop);
+            auto result = measureCase(mDevice, shot, sweepOf(shot), mOptions, progress, mStop);
             if (!result)
                 return result.error();
             addCase(shot, result.value());
@@ -59,15 +60,23 @@ class BenchRun {
 
   private:
     uint64_t countAllSteps() const {
-        uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
+        uint64_t steps = 0;
+        for (const Case& shot : mSuite.cases)
+            steps += countSteps(sweepOf(shot), mOptions);
         for (const ScalingAxis& axis : mSuite.axes)
             steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
-        if (!mSuite.sequences.empty())
-            steps +=
-                mSuite.sequences.size() *
-                countPictures(planSequence(mMethods, mSequence.frames, mSequence.truth.mostInstants)
-                );
+        for (const SequenceCase& film : mSuite.sequences)
+            steps += countPictures(planSequence(
+                mMethods,
+                mSequence.frames,
+                mSequence.truth.mostInstants,
+                film.shot.picture.antiAliasing
+            ));
         return steps;
+    }
+
+    const std::vector<SamplePoint>& sweepOf(const Case& shot) const {
+        return shot.shot.picture.antiAliasing == game::AntiAliasing::None ? mSweep : mAntiAliased;
     }
 
     bool isMeasured(std::string_view name) const {
@@ -99,7 +108,7 @@ class BenchRun {
              mSuite.sequences.empty() ? mOptions.truthSamples : mSequence.truth.mostInstants},
             {"repeats", mOptions.repeats},
             {"limitSeconds", mOptions.limitSeconds},
-            {"pixel", mShot.pixel == extract::PixelModel::Box ? "box" : "centre"},
+            {"pixel", mSuite.pixel == extract::PixelModel::Box ? "box" : "centre"},
             {"tonemap",
              mShot.picture.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
                                                                     : "sRGB"}};
@@ -112,7 +121,7 @@ class BenchRun {
     }
 
     void addCase(const Case& shot, const CaseResult& result) {
-        json described = describeCase(shot, mSweep, result, mOptions);
+        json described = describeCase(shot, sweepOf(shot), result, mOptions);
         const auto imageOf = [&](const json& row) {
             return pictureFile(
                 shot.name,
@@ -164,6 +173,7 @@ class BenchRun {
     const game::ShotOptions& mShot;
     const StopQuestion& mStop;
     std::vector<SamplePoint> mSweep;
+    std::vector<SamplePoint> mAntiAliased;
     std::vector<SamplePoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;

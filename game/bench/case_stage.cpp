@@ -79,16 +79,20 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto surroundings = game::computeSurroundingsHash(shot.shot.environment);
     if (!surroundings)
         return surroundings.error();
-    const std::string facts = fmt::format(
-        "scene {} surroundings {} program {} device {} {} {}",
-        sceneHash.value(),
-        surroundings.value(),
-        program.value(),
-        device.name,
-        device.driver,
-        game::describe(shot.shot)
-    );
-    return CaseSetup{scene.value(), io::computeContentHash(facts)};
+    const auto hash = [&](const game::ShotArguments& arguments) {
+        return io::computeContentHash(fmt::format(
+            "scene {} surroundings {} program {} device {} {} {}",
+            sceneHash.value(),
+            surroundings.value(),
+            program.value(),
+            device.name,
+            device.driver,
+            game::describe(arguments)
+        ));
+    };
+    game::ShotArguments ofTruth = shot.shot;
+    ofTruth.picture.antiAliasing = game::AntiAliasing::None;
+    return CaseSetup{scene.value(), hash(shot.shot), hash(ofTruth)};
 }
 
 core::Result<std::unique_ptr<CaseStage>> CaseStage::create(
@@ -97,9 +101,7 @@ core::Result<std::unique_ptr<CaseStage>> CaseStage::create(
     auto setup = setUpCase(shot, device.info(), options.folder);
     if (!setup)
         return setup.error();
-    std::unique_ptr<CaseStage> stage(
-        new CaseStage(device, shot, options, progress, setup.value().scene, setup.value().hash)
-    );
+    std::unique_ptr<CaseStage> stage(new CaseStage(device, shot, options, progress, setup.value()));
     SHUTTER_TRY(stage->load());
     return stage;
 }
@@ -109,13 +111,13 @@ CaseStage::CaseStage(
     const Case& shot,
     const MeasureOptions& options,
     core::Progress& progress,
-    fs::path scene,
-    const std::string& hash
+    const CaseSetup& setup
 )
-    : mDevice(device), mCase(shot), mOptions(options), mProgress(progress),
-      mScene(std::move(scene)),
-      mTruthHash(io::computeContentHash(fmt::format("{} truth {}", hash, options.truthSamples))),
-      mJournal(options.folder / "journal" / (shot.name + ".json"), hash) {}
+    : mDevice(device), mCase(shot), mOptions(options), mProgress(progress), mScene(setup.scene),
+      mTruthHash(
+          io::computeContentHash(fmt::format("{} truth {}", setup.truthHash, options.truthSamples))
+      ),
+      mJournal(options.folder / "journal" / (shot.name + ".json"), setup.hash) {}
 
 Status CaseStage::load() {
     game::ShotArguments arguments = mCase.shot;
@@ -177,7 +179,6 @@ CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
 
 core::Result<render::FrameResult>
 CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, bool wantsLinear) {
-    SHUTTER_TRY(game::checkPixel(mShotOptions, *drawn.point.method));
     if (!drawn.drawer)
         drawn.drawer = std::make_unique<game::PictureDrawer>(mDevice, *mRenderer);
     game::PictureRequest picture = game::makePicture(

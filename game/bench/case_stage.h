@@ -30,6 +30,8 @@ struct CaseSetup {
     /// Hash of the scene's bytes, the shot's options, this program and the device: pictures with
     /// equal hashes are equal, and their times comparable.
     std::string hash;
+    /// The same without how methods smooth edges, which is nothing to the truth.
+    std::string truthHash;
 };
 
 /// Writes a generated scene into folder/scenes/. Error: a file cannot be read or written.
@@ -85,8 +87,7 @@ class CaseStage {
         const Case& shot,
         const MeasureOptions& options,
         core::Progress& progress,
-        std::filesystem::path scene,
-        const std::string& hash
+        const CaseSetup& setup
     );
     core::Status load();
     [[nodiscard]] core::Result<TruthPictures> drawTruth();

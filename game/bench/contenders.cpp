@@ -102,6 +102,15 @@ makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays)
     return points;
 }
 
+std::vector<SamplePoint> makeAntiAliasedPoints(const std::vector<const game::MethodInfo*>& methods
+) {
+    std::vector<SamplePoint> points;
+    for (const game::MethodInfo* method : methods)
+        if (!game::isSampledAnyway(*method))
+            points.push_back({method, method->defaultSamples, true});
+    return points;
+}
+
 std::vector<SamplePoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
     constexpr uint32_t kMostSamples = 4;
     std::vector<SamplePoint> points;

@@ -31,6 +31,10 @@ struct SamplePoint {
 [[nodiscard]] std::vector<SamplePoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
 
+/// With anti-aliasing: the methods that draw a raster image, which it is about, at their defaults.
+[[nodiscard]] std::vector<SamplePoint>
+makeAntiAliasedPoints(const std::vector<const game::MethodInfo*>& methods);
+
 /// The methods at their defaults; truths with a few samples, since their time is proportional to
 /// them.
 [[nodiscard]] std::vector<SamplePoint>

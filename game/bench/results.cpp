@@ -250,16 +250,19 @@ json describeEqualError(double psnr, const SequenceResult& result) {
     return {{"psnr", psnr}, {"frames", result.plan.sweepFrames}, {"rows", rows}};
 }
 
-json describeTruth(const SequenceResult& result, const SequenceOptions& options) {
+json describeTruth(
+    const SequenceCase& film, const SequenceResult& result, const SequenceOptions& options
+) {
     const std::string key(kTruthKey);
     const Frames frames(result, SequenceCamera::Own, key);
+    const bool isBox = film.shot.pixel == extract::PixelModel::Box;
     json truth = {
         {"method", "accumulate"},
-        {"maxStepPx", options.truth.maxStepPx},
+        {"maxStepPx", isBox ? json() : json(options.truth.maxStepPx)},
         {"mostInstants", options.truth.mostInstants},
         {"instants", packQuartiles(frames.collectCounter("instants"))}};
-    if (const auto film = result.films.find(key); film != result.films.end())
-        truth["film"] = film->second;
+    if (const auto drawn = result.films.find(key); drawn != result.films.end())
+        truth["film"] = drawn->second;
     return truth;
 }
 
@@ -297,6 +300,7 @@ json describeCase(
              core::getRow(scene::listShutterRows(), "phase"), shot.shot.shutter.shutter
          )},
         {"camera", shot.shot.camera},
+        {"antiAliasing", nameAntiAliasing(shot.shot.picture.antiAliasing)},
         {"measurements", json::array()},
         {"skipped", json::array()},
         {"crops", json::array()}};
@@ -481,10 +485,11 @@ json describeSequence(
         {"title", film.title},
         {"description", film.description},
         {"kind", film.demo.empty() ? "flight" : "demo"},
+        {"antiAliasing", nameAntiAliasing(film.shot.picture.antiAliasing)},
         {"frames", result.plan.frames},
         {"framesPerSecond", result.framesPerSecond},
         {"standingFrames", result.plan.standingFrames},
-        {"truth", describeTruth(result, options)},
+        {"truth", describeTruth(film, result, options)},
         {"measurements", json::array()},
         {"equalError", json::array()},
         {"skipped", json::array()}};

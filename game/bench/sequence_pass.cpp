@@ -56,7 +56,9 @@ SequencePass::SequencePass(
       mRenderer(device, source.world().assets), mTonemap(device, source.options().picture.tonemap) {
     const SamplePoint most{game::findMethod("accumulate").value(), truth.mostInstants, false};
     mEachFrame.push_back({std::string(kTruthKey), makeMethodOptions(most), Judgement::Whole});
-    mEachFrame.front().options.maxStepPx = truth.maxStepPx;
+    // The mean over the pixel takes many instants where nothing moves, too.
+    if (source.options().pixel == extract::PixelModel::Centre)
+        mEachFrame.front().options.maxStepPx = truth.maxStepPx;
     const bool isOwn = camera == SequenceCamera::Own;
     for (const SamplePoint& point : plan.points)
         mEachFrame.push_back(
@@ -90,6 +92,7 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wa
     picture.method = drawer.options;
     picture.pixel = look.pixel;
     picture.seed = look.seed;
+    picture.antiAliasing = look.picture.antiAliasing;
     picture.frame.wantColor = wantLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&mTonemap};

@@ -29,11 +29,17 @@ bool SequencePlan::isJudgedLinear(SequenceCamera camera, uint32_t frame) {
 }
 
 SequencePlan planSequence(
-    const std::vector<const game::MethodInfo*>& methods, uint32_t frames, uint32_t truthInstants
+    const std::vector<const game::MethodInfo*>& methods,
+    uint32_t frames,
+    uint32_t truthInstants,
+    game::AntiAliasing antiAliasing
 ) {
     SequencePlan plan;
-    plan.points = makeSequencePoints(methods);
-    for (const SamplePoint& point : makeSweep(methods, kMostRays)) {
+    const bool hasEdges = antiAliasing == game::AntiAliasing::None;
+    plan.points = hasEdges ? makeSequencePoints(methods) : makeAntiAliasedPoints(methods);
+    // Smooth ones take frames before each picture, or beside it: one sample count is enough.
+    for (const SamplePoint& point :
+         hasEdges ? makeSweep(methods, kMostRays) : std::vector<SamplePoint>()) {
         // The truth would be compared with itself.
         if (point.method->family == game::MethodFamily::Accumulate &&
             point.samples >= truthInstants)

@@ -36,7 +36,10 @@ struct SequencePlan {
 /// \param methods that the device can run
 /// \param truthInstants of accumulate at most, by which the truth is drawn
 [[nodiscard]] SequencePlan planSequence(
-    const std::vector<const game::MethodInfo*>& methods, uint32_t frames, uint32_t truthInstants
+    const std::vector<const game::MethodInfo*>& methods,
+    uint32_t frames,
+    uint32_t truthInstants,
+    game::AntiAliasing antiAliasing = game::AntiAliasing::None
 );
 
 /// Pictures that are drawn in all, for a progress bar; the truth counts as one.

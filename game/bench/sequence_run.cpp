@@ -319,7 +319,9 @@ core::Result<SequenceResult> measureSequence(
     const auto hash = computeSequenceHash(film, files.value(), options, device.info());
     if (!hash)
         return hash.error();
-    result.plan = planSequence(able, options.frames, options.truth.mostInstants);
+    result.plan = planSequence(
+        able, options.frames, options.truth.mostInstants, film.shot.picture.antiAliasing
+    );
     SequenceRun run(
         device, film, files.value(), result.plan, options, hash.value(), progress, stop
     );

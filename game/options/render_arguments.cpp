@@ -296,7 +296,9 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     defineDeviceOptions(command, a.device);
 }
 
-core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
+namespace {
+
+Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
     if (shot.pixel == extract::PixelModel::Box && method.family != MethodFamily::Accumulate &&
         method.family != MethodFamily::Truth)
         return makeError(
@@ -305,7 +307,7 @@ core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
     return {};
 }
 
-core::Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
+Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
     if (shot.picture.antiAliasing == AntiAliasing::None || !isSampledAnyway(method))
         return {};
     if (method.family == MethodFamily::MotionBlur)
@@ -316,6 +318,8 @@ core::Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method
         "--aa is about the raster image: method {} has --pixel box instead", method.name
     );
 }
+
+} // namespace
 
 core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     RenderOptions options;

@@ -46,7 +46,4 @@ void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
 /// used wrongly.
 [[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
 
-/// Error: --pixel box with a method that takes one sample per pixel.
-[[nodiscard]] core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method);
-
 } // namespace shutter::game

@@ -89,6 +89,17 @@ TEST_F(BenchCommand, WrongNamesAreAnsweredWithTheKnownOnes) {
     );
 }
 
+TEST_F(BenchCommand, AntiAliasingIsAListOfKnownWords) {
+    const std::string out = path("x");
+    expectRefusal({"bench", "--suite", "paper", "--aa", "no", "--out", out}, 2, {"--aa", "taa"});
+    expectRefusal(
+        {"bench", "--suite", "paper", "--aa", "taa,taa", "--out", out}, 2, {"--aa", "twice"}
+    );
+    expectRefusal(
+        {"bench", "--suite", "scaling", "--aa", "taa", "--out", out}, 2, {"--aa", "times alone"}
+    );
+}
+
 TEST_F(BenchCommand, AFilmHasEvenSides) {
     expectRefusal(
         {"bench", "--suite", "sequence", "--size", "64x35", "--out", path("x")},

@@ -186,6 +186,7 @@ def make_case(name, title, index, methods, keep_pictures):
         "name": name, "title": title,
         "description": f"a synthetic disc moves before stripes ({title}).",
         "time": 0, "exposure": 1 / 60, "phase": "end", "camera": "main",
+        "antiAliasing": "none",
         "truth": {"method": "accumulate", "samples": 256, "hash": "synthetic",
                   **({"image": f"images/{name}.reference.png"}
                      if keep_pictures else {}),
@@ -296,7 +297,7 @@ def sequence(name, shift, has_films):
                           for m, time in zip(measurements, times)]
     return {
         "name": name, "title": f"Title of {name}", "description": "A synthetic sequence.",
-        "kind": "flight", "frames": FRAMES, "framesPerSecond": 24, "standingFrames": 6,
+        "kind": "flight", "antiAliasing": "none", "frames": FRAMES, "framesPerSecond": 24, "standingFrames": 6,
         "truth": {"method": "accumulate", "maxStepPx": 1, "mostInstants": 256,
                   "instants": quartiles(20),
                   **({"film": f"films/{name}.truth.webm"} if has_films else {})},

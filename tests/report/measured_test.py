@@ -26,11 +26,11 @@ if "llvmpipe" not in devices.stdout:
 
 
 class Measured(unittest.TestCase):
-    def measure(self, *options, size="32x18"):
+    def measure(self, *options, size="32x18", truth_samples=2):
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run(
                 [SHUTTER, "bench", "--out", folder, "--size", size, "--repeats", "1",
-                 "--truth-samples", "2", *options, *ON_SOFTWARE], check=False)
+                 "--truth-samples", str(truth_samples), *options, *ON_SOFTWARE], check=False)
             self.assertEqual(done.returncode, 0)
             return json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
 
@@ -60,6 +60,35 @@ class Measured(unittest.TestCase):
         self.validate(results)
         self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
         self.assertEqual(results["equalTime"], [])
+
+    def test_edges_against_the_mean_over_the_pixel(self):
+        results = self.measure("--suite", "edges", "--case", "courtyard",
+                               "--methods", "sharp,resolved,accumulate", size="64x36", truth_samples=32)
+        self.validate(results)
+        self.assertEqual(results["settings"]["pixel"], "box")
+        none, taa, box = results["cases"]
+        self.assertEqual([(c["name"], c["antiAliasing"]) for c in results["cases"]],
+                         [("courtyard", "none"), ("courtyard-taa", "taa"), ("courtyard-box", "box")])
+        self.assertEqual(len({c["truth"]["hash"] for c in results["cases"]}), 1)
+        self.assertIn("accumulate", {m["method"] for m in none["measurements"]})
+        for case in (taa, box):
+            self.assertEqual([m["method"] for m in case["measurements"]], ["sharp", "resolved"])
+        # Smooth edges come closer to it.
+        for metric in ("psnr", "linearPsnr"):
+            reached = [next(m["metrics"][metric] for m in case["measurements"]
+                            if m["method"] == "resolved" and m["isDefault"])
+                       for case in (none, taa, box)]
+            self.assertEqual(reached, sorted(reached), metric)
+
+    def test_a_film_against_the_mean_over_the_pixel(self):
+        results = self.measure("--suite", "sequence", "--case", "spin-play", "--frames", "2",
+                               "--pixel", "box", "--aa", "taa", "--methods", "sharp,accumulate", size="64x36")
+        self.validate(results)
+        [film] = results["sequences"]
+        self.assertEqual((film["name"], film["antiAliasing"]), ("spin-play-taa", "taa"))
+        self.assertIsNone(film["truth"]["maxStepPx"])
+        self.assertEqual([m["method"] for m in film["measurements"]], ["sharp"])
+        self.assertGreater(film["measurements"][0]["metrics"]["flicker"], 0)
 
     def test_a_played_sequence(self):
         results = self.measure("--suite", "sequence", "--case", "rally-play", "--frames", "3",

@@ -52,6 +52,9 @@ class Schema(unittest.TestCase):
         self.refuses(lambda r: r["cases"][0]["measurements"][0].update(errormap="a.png"))
         self.refuses(lambda r: r["paper"]["table2"]["rows"][0].update(our=["edge"]))
 
+    def test_refuses_an_unknown_anti_aliasing(self):
+        self.refuses(lambda r: r["cases"][0].update(antiAliasing="msaa"))
+
     def test_refuses_a_negative_time(self):
         frame = lambda r: r["cases"][0]["measurements"][0]["milliseconds"]["frame"]
         self.refuses(lambda r: frame(r).update(median=-1))

@@ -24,7 +24,7 @@ function listFacts() {
 }
 
 function describeMeasuring() {
-    const {repeats, tonemap} = results.settings;
+    const {pixel, repeats, tonemap} = results.settings;
     const timed = results.sequences
         ? "Each picture is timed once; figures of a film are medians over its frames."
         : `Each figure is the median of ${repeats} repeats unless it says otherwise, ` +
@@ -32,6 +32,9 @@ function describeMeasuring() {
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +
             `for both (${tonemap}), at 8 bits a channel; linear PSNR compares them before it.`),
+        el("li", {}, pixel === "box"
+            ? "The truth is the mean over each pixel, as a camera sees it."
+            : "The truth is taken at the centre of each pixel, as the methods' pictures are."),
         el("li", {}, "Times are GPU times of passes by timestamps. The frame is every pass from " +
             "the G-buffer to the linear blurred picture, without the tone map and the reading " +
             "back; the effect is the frame less the G-buffer."),

@@ -109,8 +109,12 @@ function drawSequenceCurves() {
 
 function describeSequenceTruth(film) {
     const {instants, maxStepPx, mostInstants} = film.truth;
-    return `${film.description} ${countOf(film.frames, "frame")} at ` +
-        `${formatNumber(film.framesPerSecond, 0)} a second. The truth of each is accumulate with ` +
+    const of = `${film.description} ${countOf(film.frames, "frame")} at ` +
+        `${formatNumber(film.framesPerSecond, 0)} a second. The truth of each is accumulate with `;
+    if (maxStepPx === null) {
+        return `${of}${countOf(mostInstants, "instant")}, each at another place in the pixel.`;
+    }
+    return of +
         `so many instants that nothing moves farther than ${formatNumber(maxStepPx, 1)} px between ` +
         `two of them, ${countOf(mostInstants, "instant")} at most: ` +
         `${formatNumber(instants.median, 0)} at the median.`;

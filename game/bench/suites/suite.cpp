@@ -29,6 +29,7 @@ constexpr std::array kSuites = {
     SuiteRow{"hard", makeHardSuite},
     SuiteRow{"scaling", makeScalingSuite},
     SuiteRow{"sequence", makeSequenceSuite},
+    SuiteRow{"edges", makeEdgesSuite},
 };
 
 /// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
@@ -174,6 +175,53 @@ constexpr SequenceRow kRows[] = {
      120},
 };
 
+struct EdgesRow {
+    const char* name;
+    const char* title;
+    const char* description;
+    generator::GltfWriter (*build)();
+    const char* camera;
+    double seconds;
+};
+
+constexpr EdgesRow kEdgesRows[] = {
+    {"vase",
+     "Vase before a cushion",
+     "The paper suite's scene; only the vase moves.",
+     &generator::buildVaseScene,
+     "main",
+     0.0},
+    {"courtyard",
+     "Courtyard",
+     "Many things move before bricks and paving.",
+     &generator::buildCourtyardScene,
+     "main",
+     0.5},
+    {"courtyard-pan",
+     "Courtyard, camera turning",
+     "The camera turns past all that moves.",
+     &generator::buildCourtyardScene,
+     "pan",
+     0.5},
+    {"gallery", "Gallery", "Nearly all is at rest.", &generator::buildGalleryScene, "shooter", 0.5},
+};
+
+/// One of each for each kind of anti-aliasing.
+template <class T> std::vector<T> spread(const std::vector<T>& cases, const Suite& suite) {
+    std::vector<T> all;
+    for (const T& one : cases)
+        for (const game::AntiAliasing kind : suite.antiAliasings) {
+            T& drawn = all.emplace_back(one);
+            drawn.shot.pixel = suite.pixel;
+            drawn.shot.picture.antiAliasing = kind;
+            if (kind == game::AntiAliasing::None)
+                continue;
+            drawn.name += "-" + nameAntiAliasing(kind);
+            drawn.title += ", --aa " + nameAntiAliasing(kind);
+        }
+    return all;
+}
+
 } // namespace
 
 std::function<core::Status(const std::filesystem::path&)>
@@ -285,6 +333,39 @@ Suite makeSequenceSuite() {
         suite.sequences.push_back(std::move(film));
     }
     return suite;
+}
+
+Suite makeEdgesSuite() {
+    Suite suite;
+    suite.name = "edges";
+    suite.repeats = 3;
+    suite.limitSeconds = 30.0;
+    suite.maxRays = 16;
+    suite.pixel = extract::PixelModel::Box;
+    suite.antiAliasings = {
+        game::AntiAliasing::None, game::AntiAliasing::Taa, game::AntiAliasing::Box};
+    for (const EdgesRow& row : kEdgesRows) {
+        Case shot;
+        shot.name = row.name;
+        shot.title = row.title;
+        shot.description = row.description;
+        shot.shot.camera = row.camera;
+        shot.shot.time = row.seconds;
+        shot.shot.fps = findFilmRate(generator::kExposureSeconds);
+        shot.writeScene = makeWriter(row.build);
+        suite.cases.push_back(std::move(shot));
+    }
+    return suite;
+}
+
+std::string nameAntiAliasing(game::AntiAliasing antiAliasing) {
+    const auto& row = core::getRow(game::listPictureRows(), "antiAliasing");
+    return core::describeValue(row, {.antiAliasing = antiAliasing});
+}
+
+void spreadAntiAliasing(Suite& suite) {
+    suite.cases = spread(suite.cases, suite);
+    suite.sequences = spread(suite.sequences, suite);
 }
 
 } // namespace shutter::bench

@@ -61,9 +61,14 @@ struct Suite {
     std::vector<Case> cases;             ///< compared with the truth
     std::vector<ScalingAxis> axes;       ///< timed only
     std::vector<SequenceCase> sequences; ///< compared with the truth frame by frame
-    uint32_t repeats = 7;                ///< timed pictures of each method and sample count
-    double limitSeconds = 60.0;          ///< sample counts whose picture takes longer are skipped
-    uint32_t maxRays = 256;              ///< largest sample count of methods that count rays
+    /// What the truth shows of a pixel: its centre, as the methods do, or the mean that a camera
+    /// sees.
+    extract::PixelModel pixel = extract::PixelModel::Centre;
+    uint32_t repeats = 7;       ///< timed pictures of each method and sample count
+    double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
+    uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
+    /// Each case is drawn with each.
+    std::vector<game::AntiAliasing> antiAliasings = {game::AntiAliasing::None};
 };
 
 /// Error: lists the names of all suites.
@@ -84,5 +89,14 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeScalingSuite();
 /// Three flights and three played demos, judged in time.
 [[nodiscard]] Suite makeSequenceSuite();
+/// Four shots as a camera sees them: with each anti-aliasing, against the mean over the pixel.
+[[nodiscard]] Suite makeEdgesSuite();
+
+/// "none", "taa" or "box".
+[[nodiscard]] std::string nameAntiAliasing(game::AntiAliasing antiAliasing);
+
+/// Puts the suite's pixel model and kinds of anti-aliasing into its cases and films: one of each
+/// kind for each of them, called after it ("vase-taa") unless it has none.
+void spreadAntiAliasing(Suite& suite);
 
 } // namespace shutter::bench

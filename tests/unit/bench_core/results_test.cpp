@@ -192,8 +192,6 @@ class SequenceResults : public testing::Test {
     }
 
     SequenceResult mResult;
-
-  private:
     SequenceCase mFilm;
 };
 
@@ -268,6 +266,14 @@ TEST_F(SequenceResults, MeasuresAreMeansOverTheFramesThatHaveThem) {
     EXPECT_EQ(row.at("milliseconds").at("frame").at("median"), 10.0) << "of its own camera";
     EXPECT_EQ(row.at("milliseconds").at("wall").at("median"), 20.0);
     EXPECT_EQ(describe().at("truth").at("instants").at("median"), 3.5);
+}
+
+TEST_F(SequenceResults, TheMeanOverThePixelTakesAllInstantsInEveryFrame) {
+    EXPECT_EQ(describe().at("truth").at("maxStepPx"), 0.5);
+    mFilm.shot.pixel = extract::PixelModel::Box;
+    mFilm.shot.picture.antiAliasing = game::AntiAliasing::Taa;
+    EXPECT_TRUE(describe().at("truth").at("maxStepPx").is_null());
+    EXPECT_EQ(describe().at("antiAliasing"), "taa");
 }
 
 TEST_F(SequenceResults, AFilmThatEqualsItsTruthHasNoFinitePsnr) {

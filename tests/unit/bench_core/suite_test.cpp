@@ -32,7 +32,7 @@ namespace {
 using image::Image;
 
 TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
-    for (const char* name : {"paper", "hard", "scaling"}) {
+    for (const char* name : {"paper", "hard", "scaling", "edges"}) {
         auto suite = findSuite(name);
         ASSERT_TRUE(suite.ok()) << name;
         std::vector<Case> cases = suite.value().cases;
@@ -69,6 +69,25 @@ TEST(Suites, SequencesAreThreeFlightsAndThreePlayedDemos) {
     EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));
 }
 
+TEST(Suites, EachCaseIsThereWithEachAntiAliasingAndTheSuitesPixel) {
+    Suite suite = makeEdgesSuite();
+    const size_t count = suite.cases.size();
+    suite.sequences = {{.name = "film", .title = "Film"}};
+    spreadAntiAliasing(suite);
+    ASSERT_EQ(suite.cases.size(), 3 * count);
+    EXPECT_EQ(suite.cases[0].name, "vase");
+    EXPECT_EQ(suite.cases[1].name, "vase-taa");
+    EXPECT_EQ(suite.cases[2].name, "vase-box");
+    EXPECT_EQ(suite.cases[0].shot.picture.antiAliasing, game::AntiAliasing::None);
+    EXPECT_EQ(suite.cases[1].shot.picture.antiAliasing, game::AntiAliasing::Taa);
+    EXPECT_EQ(suite.cases[1].title, suite.cases[0].title + ", --aa taa");
+    for (const Case& shot : suite.cases)
+        EXPECT_EQ(shot.shot.pixel, extract::PixelModel::Box) << shot.name;
+    ASSERT_EQ(suite.sequences.size(), 3u);
+    EXPECT_EQ(suite.sequences[2].name, "film-box");
+    EXPECT_EQ(suite.sequences[2].shot.pixel, extract::PixelModel::Box);
+}
+
 TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     const auto found = findSuite("nosuch");
     ASSERT_FALSE(found.ok());
@@ -84,13 +103,14 @@ class CaseSetupTest : public testing::Test {
         mFolder.write("a.bin", "1");
     }
 
-    [[nodiscard]] std::string hash() const {
-        Case shot;
+    [[nodiscard]] CaseSetup setUp(Case shot = {}) const {
         shot.shot.scene = (mFolder.path() / "s.gltf").string();
         const auto setup = setUpCase(shot, {}, mFolder.path());
         EXPECT_TRUE(setup.ok());
-        return setup ? setup.value().hash : std::string();
+        return setup ? setup.value() : CaseSetup();
     }
+
+    [[nodiscard]] std::string hash() const { return setUp().hash; }
 
     test::TempFolder mFolder;
 };
@@ -107,6 +127,15 @@ TEST_F(CaseSetupTest, ABufferIsPartOfTheScene) {
     const std::string before = hash();
     mFolder.write("a.bin", "2");
     EXPECT_NE(hash(), before);
+}
+
+TEST_F(CaseSetupTest, TheTruthDependsOnThePixelAndNotOnAntiAliasing) {
+    Case smooth;
+    smooth.shot.picture.antiAliasing = game::AntiAliasing::Taa;
+    EXPECT_NE(setUp(smooth).hash, setUp().hash);
+    EXPECT_EQ(setUp(smooth).truthHash, setUp().truthHash);
+    smooth.shot.pixel = extract::PixelModel::Box;
+    EXPECT_NE(setUp(smooth).truthHash, setUp().truthHash);
 }
 
 TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
@@ -175,6 +204,16 @@ TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
     EXPECT_FALSE(keys.contains("truth/16")) << "seconds a frame";
     EXPECT_FALSE(keys.contains("accumulate/64")) << "the truth itself";
     EXPECT_EQ(plan.points.size(), 4u);
+}
+
+TEST(SequencePlan, WithAntiAliasingThereAreMethodsOfOneRasterAtTheirDefaults) {
+    const SequencePlan plan = planSequence(
+        findMethods({"sharp", "gather", "accumulate", "truth"}), 48, 64, game::AntiAliasing::Taa
+    );
+    ASSERT_EQ(plan.points.size(), 2u);
+    EXPECT_EQ(makeKey(plan.points[0]), "sharp/0");
+    EXPECT_EQ(makeKey(plan.points[1]), "gather/15");
+    EXPECT_TRUE(plan.sweep.empty());
 }
 
 TEST(SequencePlan, FramesThatAreDrawnAgainLieInsideTheFilm) {
