@@ -56,13 +56,15 @@ Status checkFilmSize(const game::PictureSize& size) {
 
 /// What the truth shows of a pixel, and how methods smooth edges.
 Status applyEdges(const BenchArguments& arguments, Suite& suite) {
-    if (arguments.shot.pixel == extract::PixelModel::Box)
+    const bool isBox = arguments.shot.pixel == extract::PixelModel::Box;
+    if (!suite.axes.empty() && (isBox || !arguments.antiAliasings.empty()))
+        return core::makeError(
+            "{}: the suite {} measures times alone", isBox ? "--pixel box" : "--aa", suite.name
+        );
+    if (isBox)
         suite.pixel = arguments.shot.pixel;
-    if (!arguments.antiAliasings.empty()) {
-        if (!suite.axes.empty())
-            return core::makeError("--aa: the suite {} measures times alone", suite.name);
+    if (!arguments.antiAliasings.empty())
         suite.antiAliasings.clear();
-    }
     for (const std::string& word : arguments.antiAliasings) {
         game::PictureSettings picture;
         const auto& row = core::getRow(game::listPictureRows(), "antiAliasing");

@@ -98,6 +98,9 @@ TEST_F(BenchCommand, AntiAliasingIsAListOfKnownWords) {
     expectRefusal(
         {"bench", "--suite", "scaling", "--aa", "taa", "--out", out}, 2, {"--aa", "times alone"}
     );
+    expectRefusal(
+        {"bench", "--suite", "scaling", "--pixel", "box", "--out", out}, 2, {"--pixel box", "alone"}
+    );
 }
 
 TEST_F(BenchCommand, AFilmHasEvenSides) {
