@@ -83,6 +83,11 @@ struct ViewRequest {
     Jittered jittered = Jittered::All;
     /// Edges are drawn with several samples per pixel while the camera moves, where the device can.
     bool samplesEdges = false;
+    /// The picture is what the camera's lens sees (scene::CameraLens), of which the method takes
+    /// many places; false: what a pinhole in its middle does.
+    bool usesLens = false;
+    /// Where in the lens the raster is taken from, [0, 1)^2 (aperturePoint()); nothing: its middle.
+    std::optional<math::dvec2> lensPlace{};
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper

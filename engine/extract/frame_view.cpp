@@ -4,6 +4,7 @@
 #include "engine/extract/extracted_frame.h"
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/shutter.h"
 
@@ -90,6 +91,29 @@ dmat4 makeProjection(const scene::Camera& camera, double yFov, const ViewRequest
     return math::clipFromViewOrthographic(half.x, half.y, camera.near, camera.far);
 }
 
+CameraPose placeCamera(
+    const scene::ExposureMotion& motion,
+    const scene::Camera& camera,
+    const ViewRequest& view,
+    double s
+) {
+    const double yFov = motion.cameraYFov(s);
+    CameraPose pose{motion.worldFromCamera(s), makeProjection(camera, yFov, view)};
+    if (!view.lensPlace)
+        return pose;
+    const scene::CameraLens lens = motion.cameraLens(s);
+    const double radius = scene::computeLensRadius(lens, yFov);
+    if (radius == 0.0)
+        return pose;
+    const dvec2 place =
+        radius * dvec2(shader::aperturePoint(scene::describeAperture(lens), *view.lensPlace));
+    pose.worldFromView *= glm::translate(dmat4(1.0), dvec3(place, 0.0));
+    dmat4 shear(1.0); // x / z grows by place / focusDistance, whatever z
+    shear[2] -= dvec4(place / lens.focusDistance, 0.0, 0.0);
+    pose.clipFromView *= shear;
+    return pose;
+}
+
 bool isDrawable(const math::dmat4& matrix) {
     const double determinant = glm::determinant(math::dmat3(matrix));
     return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
@@ -123,8 +147,8 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     const auto& camera = world.registry.get<scene::Camera>(request.camera);
     const std::array times{mTimes.open, mTimes.raster, mTimes.close};
     for (int i = 0; i < 3; ++i) {
-        const dmat4 worldFromView = mMotion.worldFromCamera(times[i]);
-        mClipFromView[i] = makeProjection(camera, mMotion.cameraYFov(times[i]), request);
+        const auto [worldFromView, clipFromView] = placeCamera(mMotion, camera, request, times[i]);
+        mClipFromView[i] = clipFromView;
         mViewFromWorld[i] = glm::inverse(worldFromView);
         mEye[i] = dvec3(worldFromView[3]);
         if (i == 1)

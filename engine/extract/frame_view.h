@@ -36,6 +36,21 @@ computePictureYFov(const scene::Camera& camera, double yFov, const ViewRequest& 
 [[nodiscard]] math::dmat4
 makeProjection(const scene::Camera& camera, double yFov, const ViewRequest& view);
 
+/// A camera at one shutter time.
+struct CameraPose {
+    math::dmat4 worldFromView{1.0};
+    math::dmat4 clipFromView{1.0};
+};
+
+/// The camera as ViewRequest::lensPlace has it: at a place of its lens, parallel to the axis, and
+/// sheared so that what is in focus stays where it is.
+[[nodiscard]] CameraPose placeCamera(
+    const scene::ExposureMotion& motion,
+    const scene::Camera& camera,
+    const ViewRequest& view,
+    double s
+);
+
 /// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
 /// equal bytes give equal rows.
 struct ViewMatrices {

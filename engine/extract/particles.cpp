@@ -259,8 +259,7 @@ class Extraction {
         const uint32_t count = moves ? kMovingCameras : 1;
         for (uint32_t i = 0; i < count; ++i) {
             const double s = moves ? double(i) / (count - 1) : view.times().raster;
-            const dmat4 worldFromView = mMotion.worldFromCamera(s);
-            const dmat4 clipFromView = makeProjection(camera, mMotion.cameraYFov(s), mRequest);
+            const auto [worldFromView, clipFromView] = placeCamera(mMotion, camera, mRequest, s);
             // A difference of eyes, so that it is exact far from the world's origin.
             const dmat4 viewFromEye = dmat4(dmat3(glm::inverse(worldFromView))) *
                                       glm::translate(dmat4(1.0), mEye - dvec3(worldFromView[3]));

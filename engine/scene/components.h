@@ -174,6 +174,20 @@ struct CameraShutter {
     CutDetection cuts{};
 };
 
+/// Sits on the camera's entity; without it, or with fStop 0, the camera is a pinhole. lens.h says
+/// what it does to the picture.
+struct CameraLens {
+    double fStop = 0.0; ///< focal length by width of the opening, [0.01, 1e9]; 0: a pinhole
+    double focusDistance = 10.0; ///< metres along the axis, [1e-4, 1e9]
+    double sensorHeight = 0.024; ///< metres, [1e-4, 10]
+    uint32_t blades = 0;         ///< sides of the opening, 3 to 16; 0: a disc
+    double bladeRotation = 0.0;  ///< of the first corner from the right, counterclockwise, radians,
+                                 ///< [-2 pi, 2 pi]
+    double roundness = 0.0;      ///< of the sides, [0, 1]; 1: a disc
+    double squeeze = 1.0;        ///< width of the opening by its height, (0, 4]
+    double blurScale = 1.0;      ///< of the lens's width, [0, 2]
+};
+
 /// Artist's say over one entity and its descendants; the nearest one upwards counts.
 struct MotionBlur {
     double scale = 1.0;   ///< of all its blur on the screen, the camera's part too, [0, 2]

@@ -3,6 +3,7 @@
 
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "engine/scene/placing.h"
 #include "engine/scene/world.h"
@@ -211,10 +212,17 @@ dmat4 ExposureMotion::cameraAt(double seconds) const {
     return world;
 }
 
+double ExposureMotion::lensSeconds(double seconds) const {
+    return isHeld(mCamera) ? mFrame.raster
+                           : scaleTime(seconds, mExposure.shutter.cameraRotationScale);
+}
+
 double ExposureMotion::yFovAt(double seconds) const {
-    const double seen =
-        isHeld(mCamera) ? mFrame.raster : scaleTime(seconds, mExposure.shutter.cameraRotationScale);
-    return scene::yFovAt(mWorld, mCamera, seen);
+    return scene::yFovAt(mWorld, mCamera, lensSeconds(seconds));
+}
+
+CameraLens ExposureMotion::cameraLens(double s) const {
+    return lensAt(mWorld, mCamera, lensSeconds(scaleTime(secondsAt(s), mExposure.cap.camera)));
 }
 
 double ExposureMotion::cameraYFov(double s) const {

@@ -72,6 +72,9 @@ class ExposureMotion {
     /// Vertical field of view of the camera, radians; orthographic cameras have none.
     [[nodiscard]] double cameraYFov(double s) const;
 
+    /// The camera's lens, which is focused as it zooms.
+    [[nodiscard]] CameraLens cameraLens(double s) const;
+
     /// False when cameraYFov answers the same at every shutter time.
     [[nodiscard]] bool mayCameraZoom() const;
 
@@ -93,6 +96,8 @@ class ExposureMotion {
     [[nodiscard]] double scaleTime(double seconds, double scale) const;
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
     [[nodiscard]] double yFovAt(double seconds) const;
+    /// When the lens is that which the camera has at `seconds`.
+    [[nodiscard]] double lensSeconds(double seconds) const;
     [[nodiscard]] bool mayCameraMove() const;
     /// findBlurScale() times the frame's cap: the scale of the entity's motion on the screen.
     [[nodiscard]] double screenScaleOf(ecs::Entity entity) const;

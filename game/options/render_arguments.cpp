@@ -283,6 +283,7 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
         ->required();
     defineSceneOptions(command, a.shot);
     defineShotOptions(command, a.shot);
+    defineLensOptions(command, a.shot);
     defineSizeOption(command, a.shot);
     defineFlythroughOption(command, a.shot);
     defineFrameOptions(command, a.shot);
@@ -305,6 +306,18 @@ Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
             "--pixel box needs a method that takes many samples per pixel: accumulate or truth"
         );
     return {};
+}
+
+Status checkLens(const ShotOptions& shot, const MethodInfo& method) {
+    const bool opens = shot.fStop.value_or(0.0) != 0.0;
+    if (method.hasLens || (!opens && !shot.focusDistance))
+        return {};
+    return makeError(
+        "{}: method {} has no lens yet; use {}",
+        opens ? "--fstop" : "--focus",
+        method.name,
+        listLensMethods()
+    );
 }
 
 Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
@@ -331,7 +344,9 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     if (!method)
         return method.error();
     options.method = std::move(method).value();
+    options.shot.usesLens = true;
     SHUTTER_TRY(checkPixel(options.shot, *options.method.method));
+    SHUTTER_TRY(checkLens(options.shot, *options.method.method));
     SHUTTER_TRY(checkAntiAliasing(options.shot, *options.method.method));
     auto output = interpretOutput(arguments, options.shot, options.method);
     if (!output)

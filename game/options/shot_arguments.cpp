@@ -2,6 +2,7 @@
 #include "game/options/shot_arguments.h"
 
 #include "engine/io/file_bytes.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/shutter.h"
 #include "game/options/option_rows.h"
 #include "game/shot/shot.h"
@@ -163,6 +164,15 @@ Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
     return {};
 }
 
+Status parseLens(const ShotArguments& arguments, ShotOptions& options) {
+    SHUTTER_TRY(scene::validate(arguments.lens, "lens."));
+    if (arguments.typed.contains("--fstop"))
+        options.fStop = arguments.lens.fStop;
+    if (arguments.typed.contains("--focus"))
+        options.focusDistance = arguments.lens.focusDistance;
+    return {};
+}
+
 } // namespace
 
 void defineSceneOptions(CLI::App& command, ShotArguments& arguments, const std::string& defaults) {
@@ -178,6 +188,12 @@ void defineSceneOptions(CLI::App& command, ShotArguments& arguments, const std::
 void defineShotOptions(CLI::App& command, ShotArguments& arguments) {
     defineRows(command, OptionRows<A>(kShotRows), arguments);
     defineShutterOptions(command, arguments.shutter);
+}
+
+void defineLensOptions(CLI::App& command, ShotArguments& arguments) {
+    defineSettingOptions(
+        command, scene::listLensRows(), arguments.lens, arguments.typed, "the camera's"
+    );
 }
 
 void defineSizeOption(CLI::App& command, ShotArguments& arguments) {
@@ -208,7 +224,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.height = arguments.size.height;
     options.background = arguments.background;
     options.ambient = arguments.ambient;
-    for (const auto step : {parseTimes, parseSurroundings, parseFlythrough})
+    for (const auto step : {parseTimes, parseSurroundings, parseFlythrough, parseLens})
         SHUTTER_TRY(step(arguments, options));
     auto shutter = interpretShutter(arguments.shutter);
     if (!shutter)
@@ -255,6 +271,9 @@ std::string describe(const ShotArguments& arguments) {
     text += describe(arguments.picture);
     // What the options mean together; wrong ones are refused before a picture is drawn.
     const auto shutter = interpretShutter(arguments.shutter);
+    for (const core::SettingRow<scene::CameraLens>& row : scene::listLensRows())
+        if (arguments.typed.contains(row.option))
+            text += fmt::format("{}={} ", row.name, core::describeValue(row, arguments.lens));
     return text + scene::describe(shutter ? shutter.value() : arguments.shutter.shutter);
 }
 

@@ -33,6 +33,7 @@ struct ShotArguments {
     std::vector<std::string> clips;
     bool loop = false;
     ShutterArguments shutter;
+    scene::CameraLens lens{}; ///< its options count if they were typed
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t seed = 0;
     PictureSize size{1280, 720};
@@ -43,7 +44,7 @@ struct ShotArguments {
     environment::EnvironmentSettings surroundings{};
     std::optional<double> sky; ///< turbidity; 0: no sky, not even a demo's own
     PictureSettings picture{};
-    std::set<std::string> typed; ///< options of `surroundings` and `picture` that were typed
+    std::set<std::string> typed; ///< options of `lens`, `surroundings` and `picture`
 };
 
 /// What is drawn and what it looks like: the options of every command that draws a scene.
@@ -53,6 +54,8 @@ void defineSceneOptions(
 );
 /// When a picture is taken, and of which pixels: --time, the shutter's options, --pixel, --unlit.
 void defineShotOptions(CLI::App& command, ShotArguments& arguments);
+/// --fstop, --focus.
+void defineLensOptions(CLI::App& command, ShotArguments& arguments);
 /// --size.
 void defineSizeOption(CLI::App& command, ShotArguments& arguments);
 /// --flythrough.

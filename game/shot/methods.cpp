@@ -4,6 +4,7 @@
 #include "modules/motion_blur/presets.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace shutter::game {
 
@@ -17,6 +18,7 @@ MethodInfo describe(const motion_blur::Method& blur) {
         .family = MethodFamily::MotionBlur,
         .blur = &blur,
         .rays = blur.rays,
+        .hasLens = blur.readsLens,
         .sampleUnit = blur.sampleUnit,
         .defaultSamples = blur.defaultSamples,
         .aovs = {blur.views.begin(), blur.views.end()}};
@@ -37,6 +39,7 @@ std::vector<MethodInfo> makeMethods() {
          .description = "truth: sharp frames at many instants, averaged",
          .publication = "Haeberli and Akeley 1990",
          .family = MethodFamily::Accumulate,
+         .hasLens = true,
          .sampleUnit = SampleUnit::Instants,
          .defaultSamples = 256}
     );
@@ -46,6 +49,7 @@ std::vector<MethodInfo> makeMethods() {
          .publication = "Cook, Porter, Carpenter 1984",
          .family = MethodFamily::Truth,
          .rays = RayNeed::Query,
+         .hasLens = true,
          .sampleUnit = SampleUnit::Rays,
          .defaultSamples = 256,
          .aovs = {"error"}}
@@ -92,6 +96,16 @@ core::Result<const MethodInfo*> findMethod(std::string_view name) {
         names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
     }
     return core::makeError("--method '{}' is not one of {}", name, names);
+}
+
+std::string listLensMethods() {
+    std::vector<std::string_view> names;
+    for (const MethodInfo& method : listMethods())
+        if (method.hasLens)
+            names.emplace_back(method.name);
+    const std::string_view last = names.back();
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
 std::span<const Preset> listPresets() {

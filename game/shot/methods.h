@@ -31,6 +31,7 @@ struct MethodInfo {
     MethodFamily family;
     const motion_blur::Method* blur = nullptr; ///< null unless the family is MotionBlur
     RayNeed rays = RayNeed::None;
+    bool hasLens = false; ///< it draws what the camera's lens sees; false: what a pinhole does
     /// What `--samples` counts, which trades time for error; empty: the method takes no samples.
     std::optional<SampleUnit> sampleUnit{};
     uint32_t defaultSamples = 0;     ///< 0 without a sample unit
@@ -47,6 +48,9 @@ findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices
 
 /// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
+
+/// "accumulate, truth or denoised": the methods that have a lens.
+[[nodiscard]] std::string listLensMethods();
 
 /// A choice of a method and of the blur's settings by one word, for people who want no more.
 struct Preset {

@@ -58,6 +58,7 @@ PictureRequest makePicture(
 ) {
     PictureRequest picture;
     picture.frame.view = makeView(shot, options, seconds);
+    picture.frame.view.usesLens = options.usesLens && method.method->hasLens;
     picture.method = method;
     picture.pixel = options.pixel;
     picture.seed = options.seed;

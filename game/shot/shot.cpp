@@ -5,6 +5,7 @@
 #include "engine/flythrough/time_ramp.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/world.h"
 #include "game/shot/clips.h"
 #include "game/shot/surroundings.h"
@@ -134,6 +135,30 @@ core::Result<ClipFlight> findClipFlight(const scene::World& world, const ShotOpt
     );
 }
 
+/// Gives the camera the lens that the options name. Error: it has none that they could change.
+core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions& options) {
+    if (!options.fStop && !options.focusDistance)
+        return {};
+    const char* option = options.fStop ? "--fstop" : "--focus";
+    if (world.registry.get<scene::Camera>(camera).kind == scene::CameraKind::Orthographic)
+        return makeError("{}: an orthographic camera has no focal length, so no lens", option);
+    const auto* own = world.registry.find<scene::CameraLens>(camera);
+    scene::CameraLens lens = own ? *own : scene::CameraLens{};
+    lens.fStop = options.fStop.value_or(lens.fStop);
+    lens.focusDistance = options.focusDistance.value_or(lens.focusDistance);
+    world.registry.add(camera, lens);
+    if (auto* motion = world.registry.find<scene::FocusMotion>(camera))
+        for (scene::FocusKey& key : motion->keys) {
+            if (options.fStop)
+                key.fStop.reset();
+            if (options.focusDistance)
+                key.focusDistance.reset();
+        }
+    if (options.focusDistance && !options.fStop && !scene::hasLens(world, camera))
+        return makeError("--focus needs --fstop: the camera is a pinhole");
+    return {};
+}
+
 } // namespace
 
 core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options) {
@@ -169,6 +194,7 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
     if (!hasCamera)
         shot.framedAt = findFramingTime(options);
     shot.world.registry.add(shot.camera, options.shutter);
+    SHUTTER_TRY(setLens(shot.world, shot.camera, options));
     // Surroundings of its own light a scene; a sky is that of the scene's sun.
     if (options.environment.empty() && !shot.world.assets.environment)
         lightUnlitScene(shot.world);

@@ -47,8 +47,13 @@ struct ShotOptions {
         false;                  ///< no option sets a shutter, so the flythrough's shutters apply
     std::string flythroughClip; ///< of --flythrough clip:NAME|INDEX
     scene::CameraShutter shutter{};
-    uint32_t width = 0;  ///< pixels
-    uint32_t height = 0; ///< pixels
+    /// Methods that have a lens (MethodInfo::hasLens) draw what the camera's sees; false: all draw
+    /// what a pinhole does.
+    bool usesLens = false;
+    std::optional<double> fStop;         ///< in place of the camera's, at all times
+    std::optional<double> focusDistance; ///< likewise, metres
+    uint32_t width = 0;                  ///< pixels
+    uint32_t height = 0;                 ///< pixels
     bool unlit = false;
     math::vec3 background{0.0f};                     ///< linear
     math::vec3 ambient{0.0f};                        ///< linear

@@ -9,6 +9,7 @@
 #include "engine/math/sampling.h"
 #include "engine/scene/shutter.h"
 #include "shaders/accumulate/accumulate_shared.h"
+#include "shaders/common/sampling.glsl"
 
 #include <cmath>
 
@@ -36,6 +37,13 @@ double wrap(double x) {
     return x - std::floor(x);
 }
 
+math::dvec2 placeInLens(uint32_t index, uint32_t count, uint32_t seed) {
+    const math::uvec3 point = shader::sobolPoint(index);
+    return {
+        wrap(point.y * 0x1p-32 + 0.5 / count + seedShift(seed, 0.8566748838545029)),
+        wrap(point.z * 0x1p-32 + 0.5 / count + seedShift(seed, 0.7338918566271260))};
+}
+
 } // namespace
 
 extract::ViewRequest makeInstant(
@@ -51,6 +59,8 @@ extract::ViewRequest makeInstant(
     if (view.exposure.open < view.exposure.close)
         instant.exposure = scene::takePart(view.exposure, view.exposure.open, view.exposure.close);
     instant.instant = scene::invertLight(view.exposure, (index + 0.5) / count);
+    if (view.usesLens)
+        instant.lensPlace = placeInLens(index, count, seed);
     if (pixel == PixelModel::Centre)
         return instant;
     return makeSubpixel(instant, index, count, seed);

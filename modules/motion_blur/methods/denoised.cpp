@@ -90,6 +90,7 @@ const Method kDenoised = {
     .sampleUnit = SampleUnit::Rays,
     .defaultSamples = 1,
     .readsRaster = false,
+    .readsLens = true,
     .countsBlocks = false,
     .settings =
         {"tileSizePx", "neighbourhoodTiles", "filterLevels", "luminanceSigma", "maxMotionDepth"},

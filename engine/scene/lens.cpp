@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/lens.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace shutter::scene {
+
+namespace {
+
+/// Below it a lens is metres wide.
+constexpr double kLeastFStop = 0.01;
+constexpr double kMostFStop = 1.0e9;
+constexpr double kNearestFocus = 1.0e-4; // metres
+constexpr double kFarthestFocus = 1.0e9; // metres
+constexpr uint32_t kLeastBlades = 3;
+
+double focusAt(const FocusMotion& motion, const KeyPlace& place) {
+    const double from = *motion.keys[place.key].focusDistance;
+    // Relative to the key before, so that a lens at rest changes no bit.
+    const double change =
+        interpolateAtPlace<double>(motion.keys, motion.interpolation, place, [&](size_t key) {
+            return 1.0 / *motion.keys[key].focusDistance - 1.0 / from;
+        });
+    // A smooth curve may overshoot infinity.
+    return change == 0.0
+               ? from
+               : 1.0 / std::clamp(1.0 / from + change, 1.0 / kFarthestFocus, 1.0 / kNearestFocus);
+}
+
+double fStopAt(const FocusMotion& motion, const KeyPlace& place) {
+    const double from = *motion.keys[place.key].fStop;
+    const double change =
+        interpolateAtPlace<double>(motion.keys, motion.interpolation, place, [&](size_t key) {
+            return std::log(*motion.keys[key].fStop / from);
+        });
+    return change == 0.0 ? from : std::clamp(from * std::exp(change), kLeastFStop, kMostFStop);
+}
+
+} // namespace
+
+CameraLens lensAt(const World& world, ecs::Entity camera, double seconds) {
+    SHUTTER_CHECK(std::isfinite(seconds), "lensAt {} seconds", seconds);
+    if (world.registry.get<Camera>(camera).kind == CameraKind::Orthographic)
+        return {};
+    const auto* own = world.registry.find<CameraLens>(camera);
+    CameraLens lens = own ? *own : CameraLens{};
+    const auto* motion = world.registry.find<FocusMotion>(camera);
+    if (!motion)
+        return lens;
+    SHUTTER_CHECK(!motion->keys.empty(), "a focus without keys");
+    const KeyPlace place = findKeyPlace(motion->keys, motion->ease, seconds);
+    if (motion->keys.front().focusDistance)
+        lens.focusDistance = focusAt(*motion, place);
+    if (motion->keys.front().fStop)
+        lens.fStop = fStopAt(*motion, place);
+    return lens;
+}
+
+bool hasLens(const World& world, ecs::Entity camera) {
+    const auto* motion = world.registry.find<FocusMotion>(camera);
+    const double first = motion ? motion->keys.front().seconds : 0.0;
+    const CameraLens lens = lensAt(world, camera, first);
+    return lens.fStop != 0.0 && lens.blurScale != 0.0;
+}
+
+double computeLensRadius(const CameraLens& lens, double yFov) {
+    if (lens.fStop == 0.0)
+        return 0.0;
+    const double focalLength = lens.sensorHeight / (2.0 * std::tan(yFov / 2.0));
+    return lens.blurScale * focalLength / (2.0 * lens.fStop);
+}
+
+double computeConfusionDiameter(
+    const CameraLens& lens, double radius, double depth, double pixelsPerUnit
+) {
+    return 2.0 * pixelsPerUnit * radius * std::abs(1.0 / lens.focusDistance - 1.0 / depth);
+}
+
+shader::Aperture describeAperture(const CameraLens& lens) {
+    return {lens.blades, float(lens.bladeRotation), float(lens.roundness), float(lens.squeeze)};
+}
+
+core::SettingRows<CameraLens> listLensRows() {
+    using L = CameraLens;
+    static const std::array<core::SettingRow<L>, 8> kRows = {{
+        {"fStop",
+         &L::fStop,
+         "",
+         {.lowest = 0,
+          .highest = kMostFStop,
+          .isLogarithmic = true,
+          .sliderLowest = 0.5,
+          .sliderHighest = 64},
+         "F-number of the lens: focal length by width of its opening, at least 0.01. 0 is a "
+         "pinhole, all sharp.",
+         "F-number",
+         "--fstop"},
+        {"focusDistance",
+         &L::focusDistance,
+         "m",
+         {.lowest = kNearestFocus,
+          .highest = kFarthestFocus,
+          .isLogarithmic = true,
+          .sliderLowest = 0.1,
+          .sliderHighest = 100},
+         "Distance of what is in focus, along the camera's axis.",
+         "Focus",
+         "--focus"},
+        {"sensorHeight",
+         &L::sensorHeight,
+         "m",
+         {.lowest = 1.0e-4, .highest = 10, .isLogarithmic = true},
+         "Height of the sensor, which with the field of view gives the focal length.",
+         "Sensor height"},
+        {"blades",
+         &L::blades,
+         "",
+         {.lowest = 0, .highest = 16, .step = 1},
+         "Sides of the opening, 3 or more; 0 is a disc.",
+         "Blades"},
+        {"bladeRotation",
+         &L::bladeRotation,
+         "rad",
+         {.lowest = -2.0 * std::numbers::pi, .highest = 2.0 * std::numbers::pi},
+         "Angle of the opening's first corner from the right, counterclockwise.",
+         "Blade rotation"},
+        {"roundness",
+         &L::roundness,
+         "",
+         {.lowest = 0, .highest = 1},
+         "How much the sides bulge: 0 is straight, 1 a disc.",
+         "Roundness"},
+        {"squeeze",
+         &L::squeeze,
+         "",
+         {.lowest = 0, .highest = 4, .isLowestValid = false},
+         "Width of the opening by its height; below 1 as in anamorphic lenses.",
+         "Squeeze"},
+        {"blurScale",
+         &L::blurScale,
+         "x",
+         {.lowest = 0, .highest = 2},
+         "Scales the blur, for those who dislike it.",
+         "Blur"},
+    }};
+    return kRows;
+}
+
+core::Status validate(const CameraLens& lens, std::string_view prefix) {
+    SHUTTER_TRY(core::validateRows(listLensRows(), lens, prefix));
+    if (lens.fStop != 0.0 && lens.fStop < kLeastFStop)
+        return core::makeError(
+            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kLeastFStop
+        );
+    if (lens.blades != 0 && lens.blades < kLeastBlades)
+        return core::makeError("{}blades is {}, it must be 0 or 3 to 16", prefix, lens.blades);
+    return {};
+}
+
+} // namespace shutter::scene

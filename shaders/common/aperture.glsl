@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Points spread evenly over the opening of a lens: the concentric map of a square onto a disc (Shirley
+// and Chiu 1997), whose sectors become those of a polygon with straight or rounded sides.
+#ifndef SHUTTER_APERTURE_GLSL
+#define SHUTTER_APERTURE_GLSL
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_CONST float kApertureHalfTurn = 3.14159265f;
+
+/// Of a lens whose opening has half the height 1; scene::CameraLens says what the fields mean.
+struct Aperture {
+    uint blades; // 0: a disc
+    float rotation;
+    float roundness;
+    float squeeze;
+};
+
+/// Angle from a blade's middle, radians, within half a blade of it, left of which lies the share
+/// `share` of its area. The area up to an angle a grows as (1 - roundness) cos^2(half) tan(a) +
+/// roundness a.
+/// \param half_ a blade's angle
+SHUTTER_INLINE float bladeAngle(float share, float half_, float roundness) {
+    float straight = (1.0f - roundness) * cos(half_) * cos(half_);
+    float area = (2.0f * share - 1.0f) * (straight * tan(half_) + roundness * half_);
+    float angle = atan(area / (straight + roundness));
+    for (int i = 0; i < 4; ++i) { // Newton; the first guess is exact without roundness
+        float excess = straight * tan(angle) + roundness * angle - area;
+        float slope = straight / (cos(angle) * cos(angle)) + roundness;
+        angle = clamp(angle - excess / slope, -half_, half_);
+    }
+    return angle;
+}
+
+/// Where a place of the unit square, [0, 1)^2, lies in the opening: right and up. Equal areas of the
+/// square become equal areas of the opening.
+SHUTTER_INLINE vec2 aperturePoint(Aperture aperture, vec2 place) {
+    vec2 square = place * 2.0f - 1.0f;
+    if (square.x == 0.0f && square.y == 0.0f) return square;
+    bool isWide = abs(square.x) > abs(square.y);
+    float radius = isWide ? square.x : square.y;
+    float angle = isWide ? kApertureHalfTurn * 0.25f * (square.y / square.x)
+                         : kApertureHalfTurn * (0.5f - 0.25f * (square.x / square.y));
+    if (aperture.blades > 0u && aperture.roundness < 1.0f) {
+        float turns = angle / (2.0f * kApertureHalfTurn) + (radius < 0.0f ? 0.5f : 0.0f);
+        float half_ = kApertureHalfTurn / float(aperture.blades);
+        float at = (turns - floor(turns)) * float(aperture.blades);
+        float inBlade = bladeAngle(at - floor(at), half_, aperture.roundness);
+        float side = cos(half_) / cos(inBlade);
+        radius = abs(radius) * sqrt(mix(side * side, 1.0f, aperture.roundness));
+        angle = aperture.rotation + half_ * (2.0f * floor(at) + 1.0f) + inBlade;
+    }
+    return vec2(aperture.squeeze * radius * cos(angle), radius * sin(angle));
+}
+
+SHUTTER_SHADER_END
+
+#endif
