@@ -5,6 +5,7 @@
 #include "engine/extract/frame_view.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
+#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ using math::dmat4;
 using math::dvec3;
 
 constexpr uint32_t kPathIntervals = 16;
+/// Of a lens that is focused or zooms during the exposure.
+constexpr uint32_t kLensIntervals = 64;
 /// Boxes grow by this much of their largest coordinate: rounding of keys and of the ray's way into
 /// object space must not leave a surface outside of its box.
 constexpr double kBoxGrowth = 1.0e-5;
@@ -64,6 +67,7 @@ class Builder {
 
     core::Result<TimedTables> run() {
         describeView();
+        addLens();
         for (size_t row = 0; row < mFrame.entities.size(); ++row)
             mTables.rows.push_back(computeRow(row));
         SHUTTER_TRY(addHiddenEntities());
@@ -131,6 +135,23 @@ class Builder {
             mTolerance.cameraPath.push_back(
                 dvec3(interpolateKeys(mTables.camera.keys, double(i) / kPathIntervals)[3])
             );
+    }
+
+    void addLens() {
+        if (!mRequest.usesLens || !scene::hasLens(mWorld, mRequest.camera))
+            return;
+        const bool changes =
+            mWorld.registry.find<scene::FocusMotion>(mRequest.camera) || mMotion.mayCameraZoom();
+        const uint32_t last = changes ? kLensIntervals : 0;
+        for (uint32_t i = 0; i <= last; ++i) {
+            const double s = changes ? double(i) / last : mRequest.exposure.rasterTime;
+            const scene::CameraLens lens = mMotion.cameraLens(s);
+            mTables.lens.push_back(
+                {float(scene::computeLensRadius(lens, mMotion.cameraYFov(s))),
+                 float(1.0 / lens.focusDistance)}
+            );
+            mTables.aperture = scene::describeAperture(lens);
+        }
     }
 
     MotionKeys computeRow(size_t row) {

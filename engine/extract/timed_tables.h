@@ -35,6 +35,8 @@ struct TimedTables {
     std::vector<TimedDeformation> shapes; ///< of the rows whose mesh is deformed, in their order
     MotionKeys camera;     ///< eyeFromView, widened by the lens as TimedConstants::cameraKeys
     math::vec4 view{0.0f}; ///< TimedConstants::view
+    std::vector<shader::LensKey> lens;    ///< TimedConstants::lensKeys; empty: a pinhole
+    shader::Aperture aperture{};          ///< of `lens`
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be met, in spatial order

@@ -75,6 +75,7 @@ TimedScene::upload(const extract::TimedTables& tables, std::vector<shader::Timed
     const VkDeviceSize boxesAt = layout.reserve(tables.moving.size() * sizeof(uint32_t));
     const VkDeviceSize keysAt = layout.reserve(keys.size() * sizeof(shader::MotionKey));
     const VkDeviceSize lightsAt = layout.reserve(tables.lights.size() * sizeof(shader::LightRow));
+    const VkDeviceSize lensAt = layout.reserve(tables.lens.size() * sizeof(shader::LensKey));
     if (mTables.bytes() < layout.end())
         mTables = gpu::Buffer(
             mDevice,
@@ -97,11 +98,15 @@ TimedScene::upload(const extract::TimedTables& tables, std::vector<shader::Timed
     constants.cameraKeyCount = static_cast<uint32_t>(tables.camera.keys.size());
     constants.lightKeyCount = tables.lightKeyCount;
     constants.lightCount = static_cast<uint32_t>(tables.lights.size() / tables.lightKeyCount);
+    constants.lensKeyCount = static_cast<uint32_t>(tables.lens.size());
+    constants.lensKeys = gpu::splitAddress(base + lensAt);
+    constants.aperture = tables.aperture;
     mTables.writeBytes(&constants, sizeof(constants), constantsAt);
     mTables.write(std::span<const shader::TimedRow>(rows), rowsAt);
     mTables.write(std::span<const uint32_t>(tables.moving), boxesAt);
     mTables.write(std::span<const shader::MotionKey>(keys), keysAt);
     mTables.write(std::span<const shader::LightRow>(tables.lights), lightsAt);
+    mTables.write(std::span<const shader::LensKey>(tables.lens), lensAt);
     return base + constantsAt;
 }
 

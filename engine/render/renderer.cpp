@@ -9,6 +9,7 @@
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/render/shadow_maps.h"
+#include "engine/scene/lens.h"
 
 #include <array>
 #include <chrono>
@@ -208,6 +209,7 @@ core::Status Renderer::submitFrame(
         return extracted.error();
     extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
+    facts.lensIsOpen = request.view.usesLens && scene::hasLens(world, request.view.camera);
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;

@@ -74,6 +74,34 @@ SHUTTER_INLINE vec2 pixelPlace(uint index, uint seed) {
     return vec2(unitFloat(x), unitFloat(y));
 }
 
+/// Points of the fourth and the fifth dimension, of the polynomials x^3 + x + 1 and x^3 + x^2 + 1 with
+/// the initial numbers 1, 3, 1 and 1, 1, 1 (Joe and Kuo 2008).
+SHUTTER_INLINE uvec2 sobolPoint45(uint index) {
+    uint x = 0u;
+    uint y = 0u;
+    uvec3 directionX = uvec3(0x80000000u, 0xC0000000u, 0x20000000u); // this and the next two
+    uvec3 directionY = uvec3(0x80000000u, 0x40000000u, 0x20000000u);
+    for (uint rest = index; rest != 0u; rest >>= 1u) {
+        if ((rest & 1u) != 0u) {
+            x ^= directionX.x;
+            y ^= directionY.x;
+        }
+        uint oldX = directionX.x ^ (directionX.x >> 3u);
+        uint oldY = directionY.x ^ (directionY.x >> 3u);
+        directionX = uvec3(directionX.y, directionX.z, oldX ^ directionX.y);
+        directionY = uvec3(directionY.y, directionY.z, oldY ^ directionY.z);
+    }
+    return uvec2(x, y);
+}
+
+/// Place in the lens of ray `index` of the same sequence, [0, 1): the other two of five dimensions.
+SHUTTER_INLINE vec2 lensPlace(uint index, uint seed) {
+    uvec2 point = sobolPoint45(index);
+    uint x = scrambleOwen(bitfieldReverse(point.x), hashPcg(seed + 2u));
+    uint y = scrambleOwen(bitfieldReverse(point.y), hashPcg(seed + 3u));
+    return vec2(unitFloat(x), unitFloat(y));
+}
+
 SHUTTER_SHADER_END
 
 #endif

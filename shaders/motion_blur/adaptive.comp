@@ -41,12 +41,13 @@ void main() {
         // not the same instants.
         uint traced = addGuesses(search, pixel, first, shares, guesses, mean);
         for (; traced != 0u; traced &= traced - 1u) {
+            FrameRef frame = FrameRef(method.frame);
+            TimedRef moving = TimedRef(method.timed);
             uint index = first + uint(findLSB(traced));
-            DistributedSample ray = traceDistributed(
-                uScene, FrameRef(method.frame), TimedRef(method.timed), placeOfRay(search, index),
-                timeOf(motions, instantOf(search, index))
-            );
-            mean.sum += storableColor(ray.radiance);
+            float s = timeOf(motions, instantOf(search, index));
+            ShutterRay ray = makeShutterRay(frame, moving, placeOfRay(search, index), s);
+            DistributedSample seen = traceDistributed(uScene, frame, moving, ray, s);
+            mean.sum += storableColor(seen.radiance);
             ++mean.known;
             ++rays;
         }

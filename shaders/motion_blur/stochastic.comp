@@ -3,6 +3,7 @@
 // in each pixel (Cook 1984). Motion and depth are those of the surface that moves most in the pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/sampling.glsl"
 #include "common/shutter_response.glsl"
 #include "motion_blur/denoise.glsl"
 #include "motion_blur/denoised_shared.h"
@@ -35,13 +36,15 @@ void main() {
     TimedRef moving = TimedRef(method.timed);
     vec2 centre = vec2(pixel) + 0.5f;
     float offset = interleavedGradientNoise(vec2(pixel));
+    uint seed = hashPixel(uvec2(pixel), 0u, 0u);
     vec3 sum = vec3(0.0f);
     float sum1 = 0.0f;
     float sum2 = 0.0f;
     vec4 motionDepth = vec4(0.0f, 0.0f, kSkyDepth, 0.0f);
     for (uint i = 0u; i < params.sampleCount; ++i) {
         float s = respondAt(params.response, (float(i) + offset) / float(params.sampleCount));
-        DistributedSample seen = traceDistributed(uScene, frame, moving, centre, s);
+        ShutterRay ray = makeLensRay(frame, moving, centre, lensPlace(i, seed), s);
+        DistributedSample seen = traceDistributed(uScene, frame, moving, ray, s);
         vec3 color = storableColor(seen.radiance);
         float light = luminance(color);
         sum += color;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distributed ray tracing (Cook, Porter and Carpenter 1984), the motion part: what one place of the
-// picture shows at one time of the exposure.
+// Distributed ray tracing (Cook, Porter and Carpenter 1984), of motion and lens: what one ray sees at
+// one time of the exposure.
 #ifndef SHUTTER_DISTRIBUTED_RAY_GLSL
 #define SHUTTER_DISTRIBUTED_RAY_GLSL
 
@@ -52,12 +52,11 @@ uint traceShadows(
     return dark;
 }
 
-/// \param screenPx pixels from the top left corner
-/// \param s shutter time, [0, 1]
+/// \param ray of makeShutterRay() or makeLensRay()
+/// \param s its shutter time, [0, 1]
 DistributedSample traceDistributed(
-    accelerationStructureEXT scene, FrameRef frame, TimedRef moving, vec2 screenPx, float s
+    accelerationStructureEXT scene, FrameRef frame, TimedRef moving, ShutterRay ray, float s
 ) {
-    ShutterRay ray = makeShutterRay(frame, moving, screenPx, s);
     LightSet lights = lightsAt(moving, s);
     DistributedSample result;
     result.radiance = vec3(0.0f);

@@ -16,6 +16,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Ti
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer KeyTable {
     MotionKey keys[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LensTable {
+    LensKey keys[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BoxTable {
     uint rows[];
 };
@@ -103,6 +106,37 @@ ShutterRay makeShutterRay(FrameRef frame, TimedRef moving, vec2 screenPx, float 
     ));
     ray.eye = vec3(rows[0].w, rows[1].w, rows[2].w);
     ray.forward = normalize(-vec3(rows[0].z, rows[1].z, rows[2].z));
+    return ray;
+}
+
+LensKey lensAt(TimedRef moving, float s) {
+    LensTable table = LensTable(moving.value.lensKeys);
+    if (moving.value.lensKeyCount == 1u) return table.keys[0];
+    uint first;
+    float blend;
+    findKeys(moving.value.lensKeyCount, s, first, blend);
+    LensKey from = table.keys[first];
+    LensKey to = table.keys[first + 1u];
+    return LensKey(mix(from.radius, to.radius, blend), mix(from.focus, to.focus, blend));
+}
+
+/// The same from a place of the lens, through the point in focus that the ray of its middle meets.
+/// \param place in the lens, [0, 1)^2
+ShutterRay makeLensRay(FrameRef frame, TimedRef moving, vec2 screenPx, vec2 place, float s) {
+    ShutterRay ray = makeShutterRay(frame, moving, screenPx, s);
+    if (moving.value.lensKeyCount == 0u) return ray;
+    LensKey lens = lensAt(moving, s);
+    vec2 aside = lens.radius * aperturePoint(moving.value.aperture, place);
+    vec4 rows[3];
+    interpolate(moving.value.cameraKeys, moving.value.cameraKeyCount, s, rows);
+    vec3 right = normalize(vec3(rows[0].x, rows[1].x, rows[2].x));
+    vec3 up = normalize(vec3(rows[0].y, rows[1].y, rows[2].y));
+    vec3 shift = aside.x * right + aside.y * up;
+    // On the way it goes forward by 1.
+    vec3 step_ = ray.direction / dot(ray.direction, ray.forward) - lens.focus * shift;
+    ray.eye += shift;
+    ray.origin = ray.eye + moving.value.view.z * step_;
+    ray.direction = normalize(step_);
     return ray;
 }
 

@@ -4,7 +4,7 @@
 #ifndef SHUTTER_MOVING_SCENE_SHARED_H
 #define SHUTTER_MOVING_SCENE_SHARED_H
 
-#include "common/shim.h"
+#include "common/aperture.glsl"
 
 SHUTTER_SHADER_BEGIN
 
@@ -26,6 +26,12 @@ struct TimedRow {
     float handedness;         // -1 where a mirrored skeleton turns the winding round, else 1
 };
 
+/// The camera's lens at one shutter time.
+struct LensKey {
+    float radius; // half the height of its opening, metres
+    float focus;  // 1 / distance of what is in focus, 1/m
+};
+
 struct TimedConstants {
     vec4 view;        // x, y: half the view's width and height at the raster instant, at distance 1
                       // (perspective) or anywhere (orthographic); z: near plane, metres; w: 1
@@ -38,7 +44,11 @@ struct TimedConstants {
     uint cameraKeyCount;
     uint lightKeyCount;
     uint lightCount;
+    uint lensKeyCount; // 0: a pinhole
+    uvec2 lensKeys;    // address of LensKey[], uniform over s, both ends included
+    Aperture aperture; // of the lens
     uint padding0;
+    uint padding1;
 };
 
 SHUTTER_SHADER_END
@@ -46,7 +56,8 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::MotionKey) == 48);
 static_assert(sizeof(shutter::shader::TimedRow) == 32);
-static_assert(sizeof(shutter::shader::TimedConstants) == 64);
+static_assert(sizeof(shutter::shader::LensKey) == 8);
+static_assert(sizeof(shutter::shader::TimedConstants) == 96);
 #endif
 
 #endif

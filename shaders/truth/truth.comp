@@ -35,8 +35,10 @@ vec2 tracePixel(ivec2 pixel) {
         uint seed = hashPixel(uvec2(pixel), params.seed, set_);
         vec2 place = params.boxFilter != 0u ? pixelPlace(i >> 1u, seed) : vec2(0.5f);
         float s = respondAt(params.response, shutterTime(i >> 1u, seed));
-        DistributedSample sample_ =
-            traceDistributed(uScene, frame, moving, vec2(pixel) + place, s);
+        ShutterRay ray = makeLensRay(
+            frame, moving, vec2(pixel) + place, lensPlace(i >> 1u, seed), s
+        );
+        DistributedSample sample_ = traceDistributed(uScene, frame, moving, ray, s);
         sumA += set_ == 0u ? sample_.radiance : vec3(0.0f);
         sumB += set_ == 0u ? vec3(0.0f) : sample_.radiance;
         rays += sample_.rays;

@@ -24,7 +24,8 @@ void main() {
     if (index >= uHeader.listed) return;
     AskedSample asked = uAsked[index];
     vec2 centre = vec2(asked.pixel & 0xFFFFu, asked.pixel >> 16) + 0.5f;
-    DistributedSample ray =
-        traceDistributed(uScene, FrameRef(frame), TimedRef(timed), centre, asked.time);
-    uAnswers[index] = vec4(ray.radiance, 1.0f);
+    ShutterRay ray = makeShutterRay(FrameRef(frame), TimedRef(timed), centre, asked.time);
+    DistributedSample seen =
+        traceDistributed(uScene, FrameRef(frame), TimedRef(timed), ray, asked.time);
+    uAnswers[index] = vec4(seen.radiance, 1.0f);
 }

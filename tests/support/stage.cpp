@@ -39,6 +39,7 @@ core::Result<game::PictureRequest> makePicture(const SceneBuilder& scene, const 
     const game::MethodFamily family = method.value()->family;
     game::PictureRequest picture;
     picture.frame = makeRequest(scene, shot);
+    picture.frame.view.usesLens = method.value()->hasLens;
     picture.method.method = method.value();
     picture.method.samples = shot.instants;
     picture.method.maxStepPx = shot.maxStepPx;

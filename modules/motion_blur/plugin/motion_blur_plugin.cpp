@@ -83,6 +83,8 @@ void MotionBlurPlugin::chooseStandIn() {
 core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
+    if (settings().method->readsLens && facts.lensIsOpen)
+        return {true, "the lens is open"};
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
     if (!facts.moves)

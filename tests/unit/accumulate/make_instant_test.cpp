@@ -82,6 +82,30 @@ TEST(MakeInstant, EachHalfOfTheExposureCoversThePixelToo) {
     }
 }
 
+TEST(MakeInstant, TimesPlacesInTheLensAndInThePixelAreIndependent) {
+    extract::ViewRequest view;
+    EXPECT_FALSE(makeInstant(view, 0, 1, PixelModel::Box, 0).lensPlace);
+    view.usesLens = true;
+    constexpr uint32_t kCount = 256;
+    std::vector<std::vector<double>> samples;
+    for (uint32_t i = 0; i < kCount; ++i) {
+        const auto instant = makeInstant(view, i, kCount, PixelModel::Box, 0);
+        const dvec2 lens = instant.lensPlace.value();
+        const dvec2 pixel = instant.jitterPx + 0.5;
+        samples.push_back({*instant.instant, lens.x, lens.y, pixel.x, pixel.y});
+    }
+    for (int a = 0; a < 5; ++a)
+        for (int b = 0; b < a; ++b) {
+            std::vector<int> cells(16, 0);
+            for (const std::vector<double>& sample : samples) {
+                ASSERT_TRUE(sample[a] >= 0.0 && sample[a] < 1.0);
+                ++cells[size_t(sample[a] * 4.0) * 4 + size_t(sample[b] * 4.0)];
+            }
+            for (const int count : cells)
+                EXPECT_NEAR(count, 16, 5) << a << " and " << b;
+        }
+}
+
 TEST(MakeInstant, OneBoxSampleLiesInTheMiddle) {
     const auto instant = makeInstant({}, 0, 1, PixelModel::Box, 0);
     EXPECT_EQ(instant.jitterPx, dvec2(0.0));

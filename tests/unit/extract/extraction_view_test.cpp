@@ -4,6 +4,7 @@
 #include "engine/extract/timed_tables.h"
 #include "engine/math/transform.h"
 #include "engine/scene/history.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
@@ -25,6 +26,24 @@ void expectNear(const math::mat4& a, const math::mat4& b, float tolerance) {
 
 /// Five units in the last place of a float.
 constexpr float kRounding = 6e-7f;
+
+TEST_F(Extraction, APlaceOfTheLensSeesWhatIsInFocusWhereItWasAndTheRestShifted) {
+    constexpr double kFocus = 4.0;
+    world.registry.add(camera, scene::CameraLens{.fStop = 0.1, .focusDistance = kFocus});
+    const auto& lens = world.registry.get<scene::Camera>(camera);
+    const double radius = scene::computeLensRadius({.fStop = 0.1}, lens.yFov);
+    const double scale = 1.0 / std::tan(lens.yFov / 2.0); // heights of half the picture
+    request.lensPlace = math::dvec2(0.5, 0.875);          // up
+    const CameraPose pose = placeCamera(motion(), lens, request, 0.5);
+    for (const double depth : {1.0, 4.0, 50.0}) {
+        const math::dvec4 clip = pose.clipFromView * glm::inverse(pose.worldFromView) *
+                                 math::dvec4(0.3, 0.2, -depth, 1.0);
+        const math::dvec2 seen(clip.x / clip.w, -clip.y / clip.w); // y points down in clip space
+        const double shift = scale * 0.75 * radius * (1.0 / kFocus - 1.0 / depth);
+        EXPECT_NEAR(seen.x, 0.5 * scale * 0.3 / depth, 1e-7) << depth;
+        EXPECT_NEAR(seen.y, scale * 0.2 / depth + shift, 1e-6) << depth;
+    }
+}
 
 TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
     world.registry.add(camera, scene::AngularVelocity{{0.0, 0.1, 0.0}});

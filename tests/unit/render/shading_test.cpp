@@ -254,6 +254,29 @@ TEST(SobolPoint, TheFirstPointsAreThePublishedOnes) {
         EXPECT_EQ(sobolPoint(i) >> 29u, expected[i]) << i;
 }
 
+TEST(SobolPoint, SoAreThoseOfTheFourthAndTheFifthDimension) {
+    const uvec2 expected[8] = {{0, 0}, {4, 4}, {6, 2}, {2, 6}, {1, 1}, {5, 5}, {7, 3}, {3, 7}};
+    for (uint i = 0; i < 8; ++i)
+        EXPECT_EQ(sobolPoint45(i) >> 29u, expected[i]) << i;
+}
+
+TEST(LensPlace, CoversTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
+    for (const uint seed : {1u, 900u})
+        for (int other = 0; other < 3; ++other) {
+            std::vector<int> cells(64, 0);
+            for (uint i = 0; i < 4096; ++i) {
+                const vec2 lens = lensPlace(i, seed);
+                ASSERT_TRUE(lens.x >= 0.0f && lens.x < 1.0f && lens.y >= 0.0f && lens.y < 1.0f);
+                const vec2 pixel = pixelPlace(i, seed);
+                const float by = other == 0 ? shutterTime(i, seed) : other == 1 ? pixel.x : pixel.y;
+                const auto cell = uvec3(uint(lens.x * 4.0f), uint(lens.y * 4.0f), uint(by * 4.0f));
+                ++cells[(cell.x * 4 + cell.y) * 4 + cell.z];
+            }
+            for (const int count : cells)
+                EXPECT_EQ(count, 64) << other;
+        }
+}
+
 TEST(PixelPlace, WithTheTimeItFillsTheCubeEvenly) {
     // Elementary boxes of a net: whatever way the volume is cut into powers of two.
     for (const uint seed : {1u, 900u}) {
