@@ -2,6 +2,7 @@
 #include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/vertex_waves.h"
 
 #include <algorithm>
@@ -126,6 +127,39 @@ scene::Camera readCamera(const GltfContext& context, size_t index) {
     return camera;
 }
 
+std::optional<scene::CameraLens> readLens(GltfContext& context, size_t index) {
+    const std::string path = fmt::format("cameras[{}]", index);
+    const tinygltf::Value* object = findExtra(context.model.cameras[index].extras, "lens", path);
+    if (!object)
+        return std::nullopt;
+    const std::string at = path + ".extras.lens";
+    warnOfOthers(
+        context,
+        *object,
+        {"fStop",
+         "focusDistance",
+         "sensorHeight",
+         "blades",
+         "bladeRotation",
+         "roundness",
+         "squeeze",
+         "blurScale"},
+        at
+    );
+    scene::CameraLens lens;
+    lens.fStop = findNumber(*object, "fStop", at).value_or(lens.fStop);
+    lens.focusDistance = findNumber(*object, "focusDistance", at).value_or(lens.focusDistance);
+    lens.sensorHeight = findNumber(*object, "sensorHeight", at).value_or(lens.sensorHeight);
+    lens.blades = findIndex(*object, "blades", at).value_or(lens.blades);
+    lens.bladeRotation = findNumber(*object, "bladeRotation", at).value_or(lens.bladeRotation);
+    lens.roundness = findNumber(*object, "roundness", at).value_or(lens.roundness);
+    lens.squeeze = findNumber(*object, "squeeze", at).value_or(lens.squeeze);
+    lens.blurScale = findNumber(*object, "blurScale", at).value_or(lens.blurScale);
+    if (const core::Status valid = scene::validate(lens, at + "."); !valid)
+        failGltf("{}", valid.error().message);
+    return lens;
+}
+
 scene::Light readLight(const GltfContext& context, size_t index) {
     const tinygltf::Light& source = context.model.lights[index];
     const std::string path = fmt::format("KHR_lights_punctual.lights[{}]", index);
@@ -158,7 +192,7 @@ scene::Light readLight(const GltfContext& context, size_t index) {
 
 std::optional<scene::MotionBlur>
 readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
-    const tinygltf::Value* object = findExtra(node, "motionBlur", path);
+    const tinygltf::Value* object = findExtra(node.extras, "motionBlur", path);
     if (!object)
         return std::nullopt;
     const std::string at = path + ".extras.motionBlur";
@@ -173,7 +207,7 @@ readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::stri
 
 std::optional<scene::VertexWaves>
 readVertexWaves(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
-    const tinygltf::Value* object = findExtra(node, "vertexWaves", path);
+    const tinygltf::Value* object = findExtra(node.extras, "vertexWaves", path);
     if (!object)
         return std::nullopt;
     const std::string at = path + ".extras.vertexWaves";

@@ -179,6 +179,8 @@ class NodeLoader {
         addWaves();
         if (mNode.camera >= 0) {
             mRegistry.add<scene::Camera>(mEntity, readCamera(mContext, size_t(mNode.camera)));
+            if (const auto lens = readLens(mContext, size_t(mNode.camera)))
+                mRegistry.add<scene::CameraLens>(mEntity, *lens);
             mWorld.cameras.push_back(mEntity);
         }
         addLight();

@@ -93,7 +93,7 @@ void readNumbers(
 
 std::optional<uint32_t> findParticleTexture(const GltfContext& context, size_t node) {
     const std::string path = pathOf(node);
-    const tinygltf::Value* object = findExtra(context.model.nodes[node], kMember, path);
+    const tinygltf::Value* object = findExtra(context.model.nodes[node].extras, kMember, path);
     if (!object)
         return std::nullopt;
     const std::string at = path + ".extras." + kMember;
@@ -106,7 +106,7 @@ std::optional<uint32_t> findParticleTexture(const GltfContext& context, size_t n
 
 std::optional<scene::ParticleEmitter> readParticles(GltfContext& context, size_t index) {
     const std::string path = pathOf(index);
-    const tinygltf::Value* object = findExtra(context.model.nodes[index], kMember, path);
+    const tinygltf::Value* object = findExtra(context.model.nodes[index].extras, kMember, path);
     if (!object)
         return std::nullopt;
     const std::string at = path + ".extras." + kMember;

@@ -88,6 +88,11 @@ void readMorphTargets(
 /// cameras[index] as a component.
 [[nodiscard]] scene::Camera readCamera(const GltfContext& context, size_t index);
 
+/// `extras.lens` of cameras[index], with the fields of scene::CameraLens, all optional. Nothing
+/// where the camera has none. Throws GltfError, naming the member, for values that
+/// scene::validate() refuses.
+[[nodiscard]] std::optional<scene::CameraLens> readLens(GltfContext& context, size_t index);
+
 /// lights[index] of KHR_lights_punctual as a component.
 [[nodiscard]] scene::Light readLight(const GltfContext& context, size_t index);
 

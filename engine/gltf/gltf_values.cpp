@@ -67,10 +67,10 @@ findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name)
 }
 
 const tinygltf::Value*
-findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path) {
-    if (!node.extras.IsObject() || !node.extras.Has(name))
+findExtra(const tinygltf::Value& extras, const std::string& name, const std::string& path) {
+    if (!extras.IsObject() || !extras.Has(name))
         return nullptr;
-    const tinygltf::Value& object = node.extras.Get(name);
+    const tinygltf::Value& object = extras.Get(name);
     if (!object.IsObject())
         failGltf("{}.extras.{} is not an object", path, name);
     return &object;

@@ -90,9 +90,9 @@ template <class Vector>
 [[nodiscard]] const tinygltf::Value*
 findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
-/// `extras.name` of a node, or nullptr. Throws GltfError where it is not an object.
+/// `extras.name` of what is at `path`, or nullptr. Throws GltfError where it is not an object.
 [[nodiscard]] const tinygltf::Value*
-findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path);
+findExtra(const tinygltf::Value& extras, const std::string& name, const std::string& path);
 
 /// Warns of every member that is not `known`.
 void warnOfOthers(
