@@ -25,6 +25,8 @@ constexpr size_t kMaxKeys = 100'000;
 constexpr json::JsonRange kTimes{.min = -1.0e6, .max = 1.0e6};
 constexpr json::JsonRange kPlaces{.min = -1.0e9, .max = 1.0e9};
 constexpr json::JsonRange kFieldsOfView{.min = 0.01, .max = 179.0};
+constexpr json::JsonRange kFocusDistances{.min = 1.0e-4, .max = 1.0e9};
+constexpr json::JsonRange kFStops{.min = 0.01, .max = 1.0e9};
 constexpr json::JsonRange kTimeScales{.min = 0.001, .max = 1000.0};
 constexpr json::JsonRange kRates{.min = 0.0, .max = 1000.0, .isAboveMin = true};
 /// Tolerance of a rotation's length, whose components a file may have rounded.
@@ -86,12 +88,37 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
     return shutter;
 }
 
+/// What all keys give or none does. \param first the first key's
+void expectAsInFirst(
+    const json::JsonNode& node,
+    std::string_view name,
+    const std::optional<double>& first,
+    const std::optional<double>& own
+) {
+    if (first.has_value() != own.has_value())
+        node.fail(
+            "must have {}{}, as the first key has {}",
+            first ? "" : "no ",
+            name,
+            first ? "one" : "none"
+        );
+}
+
 /// \param first the first key; null while that key itself is read
 FlythroughKey
 readKey(const json::JsonNode& node, const FlythroughKey* first, const FlythroughKey* before) {
     FlythroughKey key;
     const json::JsonObject object = node.readObject(
-        {"time", "position", "lookAt", "rotation", "fieldOfView", "shutter", "timeScale", "cut"}
+        {"time",
+         "position",
+         "lookAt",
+         "rotation",
+         "fieldOfView",
+         "focusDistance",
+         "fStop",
+         "shutter",
+         "timeScale",
+         "cut"}
     );
     const json::JsonNode time = object.require("time");
     key.seconds = time.readNumber(kTimes);
@@ -104,6 +131,10 @@ readKey(const json::JsonNode& node, const FlythroughKey* first, const Flythrough
         key.rotation = readRotation(*rotation);
     if (const auto fieldOfView = object.find("fieldOfView"))
         key.fieldOfView = fieldOfView->readNumber(kFieldsOfView);
+    if (const auto focusDistance = object.find("focusDistance"))
+        key.focusDistance = focusDistance->readNumber(kFocusDistances);
+    if (const auto fStop = object.find("fStop"))
+        key.fStop = fStop->readNumber(kFStops);
     if (const auto shutter = object.find("shutter"))
         key.shutter = readShutter(*shutter);
     if (const auto timeScale = object.find("timeScale"))
@@ -114,12 +145,11 @@ readKey(const json::JsonNode& node, const FlythroughKey* first, const Flythrough
         node.fail("must have either lookAt or rotation");
     if (first && first->lookAt.has_value() != key.lookAt.has_value())
         node.fail("must have {} as the first key has", first->lookAt ? "lookAt" : "rotation");
-    if (first && first->fieldOfView.has_value() != key.fieldOfView.has_value())
-        node.fail(
-            "must have {}fieldOfView, as the first key has {}",
-            first->fieldOfView ? "" : "no ",
-            first->fieldOfView ? "one" : "none"
-        );
+    if (first) {
+        expectAsInFirst(node, "fieldOfView", first->fieldOfView, key.fieldOfView);
+        expectAsInFirst(node, "focusDistance", first->focusDistance, key.focusDistance);
+        expectAsInFirst(node, "fStop", first->fStop, key.fStop);
+    }
     return key;
 }
 
@@ -184,6 +214,10 @@ ordered_json describeKey(const FlythroughKey& key) {
             key.rotation->x, key.rotation->y, key.rotation->z, key.rotation->w};
     if (key.fieldOfView)
         described["fieldOfView"] = *key.fieldOfView;
+    if (key.focusDistance)
+        described["focusDistance"] = *key.focusDistance;
+    if (key.fStop)
+        described["fStop"] = *key.fStop;
     if (key.shutter)
         described["shutter"] = describeShutter(*key.shutter);
     if (key.timeScale)
@@ -218,7 +252,8 @@ bool isFinite(const FlythroughKey& key) {
     return std::isfinite(key.seconds) && isFinite(key.position) &&
            (!key.lookAt || isFinite(*key.lookAt)) &&
            (!key.rotation || std::isfinite(glm::length(*key.rotation))) &&
-           isNone(key.fieldOfView) && isNone(key.timeScale) &&
+           isNone(key.fieldOfView) && isNone(key.focusDistance) && isNone(key.fStop) &&
+           isNone(key.timeScale) &&
            (!key.shutter ||
             (isNone(key.shutter->exposureSeconds) && isNone(key.shutter->angleDegrees)));
 }
@@ -287,6 +322,18 @@ std::optional<scene::LensMotion> makeLens(const Flythrough& flythrough) {
     return lens;
 }
 
+std::optional<scene::FocusMotion> makeFocus(const Flythrough& flythrough) {
+    const FlythroughKey& first = flythrough.keys.front();
+    if (!first.focusDistance && !first.fStop)
+        return std::nullopt;
+    scene::FocusMotion focus;
+    focus.interpolation = flythrough.interpolation;
+    focus.ease = flythrough.ease;
+    for (const FlythroughKey& key : flythrough.keys)
+        focus.keys.push_back({key.seconds, key.focusDistance, key.fStop, key.cut});
+    return focus;
+}
+
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter) {
     const FlythroughShutter* told = nullptr;
     for (const FlythroughKey& key : flythrough.keys) {
@@ -312,8 +359,13 @@ ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythroug
     const core::Status valid = validateFlythrough(flythrough);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
     scene::Camera camera;
-    if (!world.cameras.empty())
-        camera = world.registry.get<scene::Camera>(world.cameras.front());
+    std::optional<scene::CameraLens> opening;
+    if (!world.cameras.empty()) {
+        const ecs::Entity first = world.cameras.front();
+        camera = world.registry.get<scene::Camera>(first);
+        if (const auto* found = world.registry.find<scene::CameraLens>(first))
+            opening = *found;
+    }
     camera.name = flythrough.name;
     const ecs::Entity entity = world.registry.create();
     world.registry.add(entity, scene::Name{flythrough.name});
@@ -325,6 +377,10 @@ ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythroug
         camera.aspectRatio.reset(); // that of the file is the picture's
         world.registry.add(entity, *lens);
     }
+    if (opening)
+        world.registry.add(entity, *opening);
+    if (auto focus = makeFocus(flythrough))
+        world.registry.add(entity, std::move(*focus));
     world.registry.add(entity, camera);
     world.cameras.push_back(entity);
     return entity;

@@ -8,6 +8,7 @@
 #include "engine/math/math.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/components.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "engine/scene/world.h"
 
@@ -33,6 +34,10 @@ struct FlythroughKey {
     std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
     /// Vertical, of the picture, degrees, [0.01, 179]; in all keys or none.
     std::optional<double> fieldOfView;
+    /// Of the lens (scene::CameraLens), metres, [1e-4, 1e9]; in all keys or none.
+    std::optional<double> focusDistance;
+    /// Of the lens, [0.01, 1e9]; in all keys or none.
+    std::optional<double> fStop;
     std::optional<FlythroughShutter> shutter;
     /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp says between keys.
     std::optional<double> timeScale;
@@ -68,13 +73,16 @@ writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough)
 /// Nothing where the keys give no field of view.
 [[nodiscard]] std::optional<scene::LensMotion> makeLens(const Flythrough& flythrough);
 
+/// Nothing where the keys give neither a focus distance nor an f-number.
+[[nodiscard]] std::optional<scene::FocusMotion> makeFocus(const Flythrough& flythrough);
+
 /// Applies to `shutter` the changes in effect at `seconds`: those of the last key at or before that
 /// time which has any; before the first such key, those of the first. Fields that this key leaves
 /// out keep their value in `shutter`; earlier keys have no effect.
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter);
 
 /// Adds a camera that follows the keys. Its lens is that of the world's first camera, or Camera's
-/// default in a world without cameras, unless the keys give a field of view.
+/// default in a world without cameras, except for what the keys give of it.
 [[nodiscard]] ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythrough);
 
 } // namespace shutter::flythrough

@@ -45,6 +45,8 @@ Flythrough makeFull() {
         each.lookAt.reset();
         each.rotation = glm::normalize(math::dquat(0.7, 0.1, -0.3, 0.2 + each.seconds));
         each.fieldOfView = 40.0 + each.seconds;
+        each.focusDistance = 3.0 + each.seconds;
+        each.fStop = 4.0 + each.seconds;
     }
     flythrough.keys[0].shutter = FlythroughShutter{1.0 / 60.0, {}, {}};
     flythrough.keys[1].shutter = FlythroughShutter{{}, 180.0, scene::ShutterPhase::Centre};
@@ -84,6 +86,8 @@ TEST(Flythrough, IsReadBackToTheLastBit) {
         EXPECT_EQ(again.keys[i].position, written.keys[i].position);
         EXPECT_EQ(again.keys[i].rotation, written.keys[i].rotation);
         EXPECT_EQ(again.keys[i].fieldOfView, written.keys[i].fieldOfView);
+        EXPECT_EQ(again.keys[i].focusDistance, written.keys[i].focusDistance);
+        EXPECT_EQ(again.keys[i].fStop, written.keys[i].fStop);
         EXPECT_EQ(again.keys[i].cut, written.keys[i].cut);
         EXPECT_EQ(again.keys[i].timeScale, written.keys[i].timeScale);
         ASSERT_TRUE(again.keys[i].shutter.has_value());
@@ -189,6 +193,14 @@ TEST(Flythrough, AWrongOneIsNotWritten) {
     refuses([](Flythrough& f) { f.keys[1].seconds = -1.5; }, "keys[1].time");
     refuses([](Flythrough& f) { f.keys[1].position.y = kNan; }, "keys[1]");
     refuses([](Flythrough& f) { f.keys[2].fieldOfView = 180.0; }, "keys[2].fieldOfView");
+    for (const double bad : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+        refuses([&](Flythrough& f) { f.keys[2].focusDistance = bad; }, "keys[2]");
+        refuses([&](Flythrough& f) { f.keys[2].fStop = bad; }, "keys[2]");
+    }
+    refuses(
+        [](Flythrough& f) { f.keys[1].fStop.reset(); },
+        "keys[1]: must have fStop, as the first key has one"
+    );
     refuses([](Flythrough& f) { f.keys[2].rotation.reset(); }, "keys[2]");
     refuses([](Flythrough& f) { f.keys[0].shutter->angleDegrees = 1.0; }, "exclude each other");
     refuses([](Flythrough& f) { f.keys[0].shutter = FlythroughShutter{}; }, "none of exposure");
@@ -237,6 +249,29 @@ TEST(Flythrough, WithoutAFieldOfViewTheLensIsTheFirstCameras) {
     const ecs::Entity third = addFlythroughCamera(world, flythrough);
     EXPECT_NEAR(fovOf(third), std::numbers::pi / 2.0, 1e-15);
     EXPECT_FALSE(world.registry.get<scene::Camera>(third).aspectRatio) << "it is the picture's";
+}
+
+TEST(Flythrough, TheLensIsFocusedByTheKeysAndElseTheFirstCameras) {
+    Flythrough flythrough = makeFull();
+    scene::World world;
+    const ecs::Entity first = world.registry.create();
+    world.registry.add(first, scene::Camera{});
+    world.registry.add(first, scene::CameraLens{.fStop = 9.0, .blades = 5});
+    world.cameras.push_back(first);
+    const ecs::Entity full = addFlythroughCamera(world, flythrough);
+    for (const FlythroughKey& each : flythrough.keys) {
+        const scene::CameraLens lens = scene::lensAt(world, full, each.seconds);
+        EXPECT_NEAR(lens.focusDistance, *each.focusDistance, 1e-12);
+        EXPECT_NEAR(lens.fStop, *each.fStop, 1e-12);
+        EXPECT_EQ(lens.blades, 5u);
+    }
+    EXPECT_NEAR(scene::lensAt(world, full, 1.99).fStop, 4.25, 1e-12) << "the last key is a cut";
+    for (FlythroughKey& each : flythrough.keys)
+        each.fStop.reset();
+    EXPECT_EQ(scene::lensAt(world, addFlythroughCamera(world, flythrough), 2.0).fStop, 9.0);
+    for (FlythroughKey& each : flythrough.keys)
+        each.focusDistance.reset();
+    EXPECT_FALSE(makeFocus(flythrough).has_value());
 }
 
 TEST(Flythrough, AShutterStandsFromItsKeyToTheNext) {
