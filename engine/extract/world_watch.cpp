@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/world_watch.h"
 
+#include "engine/scene/lens.h"
 #include "engine/scene/vertex_waves.h"
 
 #include <fmt/format.h>
@@ -60,6 +61,10 @@ checkChanged(const ecs::Registry& registry, ecs::ChangeCursor& cursor, Validate 
 core::Status MotionCheck::check(const ecs::Registry& registry) {
     SHUTTER_TRY(checkChanged<scene::PathMotion>(registry, mPaths, scene::validatePath));
     SHUTTER_TRY(checkChanged<scene::LensMotion>(registry, mLenses, scene::validateLens));
+    SHUTTER_TRY(checkChanged<scene::FocusMotion>(registry, mFocuses, scene::validateFocus));
+    SHUTTER_TRY(checkChanged<scene::CameraLens>(registry, mOpenings, [](const auto& lens) {
+        return scene::validate(lens, "lens.");
+    }));
     return checkChanged<scene::VertexWaves>(registry, mWaves, scene::validateWaves);
 }
 

@@ -49,17 +49,19 @@ class WorldWatch {
     ecs::ChangeCursor mDrawn;
 };
 
-/// Checks paths, lenses and waves when they change, so that whatever a game writes into them is
-/// refused before anything samples them.
+/// Checks paths, lenses, their keys and waves when they change, so that whatever a game writes into
+/// them is refused before anything samples them.
 class MotionCheck {
   public:
     /// Error: names the entity whose path, lens or waves are not valid (scene::validatePath,
-    /// validateLens, validateWaves).
+    /// validateLens, validateFocus, validate, validateWaves).
     [[nodiscard]] core::Status check(const ecs::Registry& registry);
 
   private:
     ecs::ChangeCursor mPaths;
     ecs::ChangeCursor mLenses;
+    ecs::ChangeCursor mFocuses;
+    ecs::ChangeCursor mOpenings;
     ecs::ChangeCursor mWaves;
 };
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "engine/scene/placing.h"
 #include "engine/scene/world.h"
@@ -128,6 +129,9 @@ bool isCut(const World& world, ecs::Entity camera, const TimeSpan& span) {
         return true;
     const auto* lens = world.registry.find<LensMotion>(camera);
     if (lens && hasCutWithin(*lens, span.after, span.until))
+        return true;
+    const auto* focus = world.registry.find<FocusMotion>(camera);
+    if (focus && hasCutKeyWithin(focus->keys, span.after, span.until))
         return true;
     return findUpwards(world, camera, [&](ecs::Entity at) {
                return hasPathCut(world, at, span);

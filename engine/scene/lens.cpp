@@ -3,6 +3,8 @@
 
 #include "engine/core/check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,6 +44,35 @@ double fStopAt(const FocusMotion& motion, const KeyPlace& place) {
 }
 
 } // namespace
+
+core::Status validateFocus(const FocusMotion& focus) {
+    if (focus.keys.empty())
+        return core::makeError("focus: it has no keys");
+    const FocusKey& first = focus.keys.front();
+    for (size_t i = 0; i < focus.keys.size(); ++i) {
+        const FocusKey& key = focus.keys[i];
+        if (!std::isfinite(key.seconds))
+            return core::makeError("focus: the time of key {} is {}", i, key.seconds);
+        if (i > 0 && !(key.seconds > focus.keys[i - 1].seconds))
+            return core::makeError(
+                "focus: key {} at {} s does not come after the one before, at {} s",
+                i,
+                key.seconds,
+                focus.keys[i - 1].seconds
+            );
+        if (key.focusDistance.has_value() != first.focusDistance.has_value() ||
+            key.fStop.has_value() != first.fStop.has_value())
+            return core::makeError("focus: key {} has other fields than the first", i);
+        CameraLens lens;
+        lens.focusDistance = key.focusDistance.value_or(lens.focusDistance);
+        lens.fStop = key.fStop.value_or(kMostFStop);
+        if (core::Status valid = validate(lens, fmt::format("focus: key {}: ", i)); !valid)
+            return valid;
+        if (lens.fStop == 0.0)
+            return core::makeError("focus: the fStop of key {} is 0", i);
+    }
+    return {};
+}
 
 CameraLens lensAt(const World& world, ecs::Entity camera, double seconds) {
     SHUTTER_CHECK(std::isfinite(seconds), "lensAt {} seconds", seconds);

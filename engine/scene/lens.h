@@ -40,6 +40,9 @@ struct FocusMotion {
     PathEase ease = PathEase::None;
 };
 
+/// One sentence that names the key and what is wrong with it.
+[[nodiscard]] core::Status validateFocus(const FocusMotion& focus);
+
 /// The camera's lens at `seconds` (finite), whatever focuses it. A pinhole for a camera without one
 /// and for an orthographic one, which has no focal length.
 [[nodiscard]] CameraLens lensAt(const World& world, ecs::Entity camera, double seconds);

@@ -316,7 +316,7 @@ Status checkLens(const ShotOptions& shot, const MethodInfo& method) {
         "{}: method {} has no lens yet; use {}",
         opens ? "--fstop" : "--focus",
         method.name,
-        listLensMethods()
+        listLensMethods("or")
     );
 }
 

@@ -9,6 +9,7 @@
 #include "engine/gpu/device_select.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/scene/lens.h"
 #include "game/output/extra_files.h"
 #include "game/output/render_options.h"
 #include "game/output/sequence_journal.h"
@@ -443,6 +444,13 @@ core::Status renderSequence(
     if (!shot)
         return shot.error();
     SHUTTER_TRY(planClipFrames(shot.value().world, options.shot));
+    const MethodInfo& method = *options.method.method;
+    if (!method.hasLens && scene::hasLens(shot.value().world, shot.value().camera))
+        core::logWarning(
+            "method {} draws the camera as a pinhole: only {} have a lens",
+            method.name,
+            listLensMethods("and")
+        );
     Sequence sequence(options);
     SHUTTER_TRY(sequence.prepare(device, shot.value()));
     core::Status drawn;

@@ -98,14 +98,14 @@ core::Result<const MethodInfo*> findMethod(std::string_view name) {
     return core::makeError("--method '{}' is not one of {}", name, names);
 }
 
-std::string listLensMethods() {
+std::string listLensMethods(std::string_view before) {
     std::vector<std::string_view> names;
     for (const MethodInfo& method : listMethods())
         if (method.hasLens)
             names.emplace_back(method.name);
     const std::string_view last = names.back();
     names.pop_back();
-    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+    return fmt::format("{} {} {}", fmt::join(names, ", "), before, last);
 }
 
 std::span<const Preset> listPresets() {

@@ -49,8 +49,9 @@ findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices
 /// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
 
-/// "accumulate, truth or denoised": the methods that have a lens.
-[[nodiscard]] std::string listLensMethods();
+/// "denoised, accumulate or truth": the methods that have a lens.
+/// \param before the last one: "or" or "and"
+[[nodiscard]] std::string listLensMethods(std::string_view before);
 
 /// A choice of a method and of the blur's settings by one word, for people who want no more.
 struct Preset {

@@ -507,6 +507,61 @@ TEST(GltfMotionBlur, BadValuesAreRefusedByName) {
         );
 }
 
+core::Result<LoadedScene> loadLens(const std::string& extras) {
+    return loadMembers(
+        R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"camera":0}],"cameras":[{"type":)"
+        R"("perspective","perspective":{"yfov":0.7,"znear":0.1},"extras":)" +
+        extras + "}]"
+    );
+}
+
+const scene::CameraLens* findLens(const LoadedScene& loaded) {
+    return loaded.world.registry.find<scene::CameraLens>(loaded.world.cameras.at(0));
+}
+
+TEST(GltfLens, IsReadFromTheCamerasExtras) {
+    const LoadedScene all = expectLoads(
+        loadLens(R"({"lens":{"fStop":2.8,"focusDistance":3,"sensorHeight":0.018,"blades":6,)"
+                 R"("bladeRotation":0.5,"roundness":0.25,"squeeze":0.5,"blurScale":1.5}})")
+    );
+    ASSERT_TRUE(findLens(all));
+    EXPECT_EQ(findLens(all)->fStop, 2.8);
+    EXPECT_EQ(findLens(all)->focusDistance, 3.0);
+    EXPECT_EQ(findLens(all)->sensorHeight, 0.018);
+    EXPECT_EQ(findLens(all)->blades, 6u);
+    EXPECT_EQ(findLens(all)->bladeRotation, 0.5);
+    EXPECT_EQ(findLens(all)->roundness, 0.25);
+    EXPECT_EQ(findLens(all)->squeeze, 0.5);
+    EXPECT_EQ(findLens(all)->blurScale, 1.5);
+    const LoadedScene some = expectLoads(loadLens(R"({"lens":{"fStop":2.8,"focus":3}})"));
+    EXPECT_EQ(findLens(some)->sensorHeight, scene::CameraLens{}.sensorHeight);
+    ASSERT_EQ(some.warnings.size(), 1u);
+    EXPECT_EQ(some.warnings[0], "cameras[0].extras.lens has a member 'focus': not used");
+    EXPECT_FALSE(findLens(expectLoads(loadLens("{}"))));
+}
+
+TEST(GltfLens, BadValuesAreRefusedByName) {
+    expectRefused(loadLens(R"({"lens":1})"), "cameras[0].extras.lens");
+    for (const char* member :
+         {R"("fStop":-1)",
+          R"("fStop":0.001)",
+          R"("fStop":"2")",
+          R"("focusDistance":0)",
+          R"("focusDistance":-3)",
+          R"("sensorHeight":0)",
+          R"("blades":2)",
+          R"("blades":2.5)",
+          R"("bladeRotation":99)",
+          R"("roundness":2)",
+          R"("squeeze":0)",
+          R"("blurScale":3)"}) {
+        const std::string name(member + 1, std::string(member).find('"', 1) - 1);
+        expectRefused(
+            loadLens(R"({"lens":{)" + std::string(member) + "}}"), "cameras[0].extras.lens." + name
+        );
+    }
+}
+
 TEST(GltfVertexWaves, AreReadFromExtras) {
     const LoadedScene loaded = expectLoads(loadExtras(
         R"({"vertexWaves":{"lean":[0.1,0,0],"space":"world","share":"height","axis":[0,0,1],)"

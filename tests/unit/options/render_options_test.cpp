@@ -292,6 +292,27 @@ TEST_F(RenderOptionsTest, InstantsFollowTheMotionWhereTheyAreAuto) {
     );
 }
 
+TEST_F(RenderOptionsTest, ALensIsForMethodsThatHaveOne) {
+    EXPECT_FALSE(accept(Words{}).shot.fStop);
+    const ShotOptions shot = accept(Words{"--method=accumulate", "--fstop=2.8", "--focus=3"}).shot;
+    EXPECT_EQ(shot.fStop, 2.8);
+    EXPECT_EQ(shot.focusDistance, 3.0);
+    EXPECT_EQ(accept(Words{"--fstop=0"}).shot.fStop, 0.0) << "a pinhole is for all";
+    EXPECT_NE(
+        accept(Words{"--method=truth"}).fingerprint,
+        accept(Words{"--method=truth", "--fstop=8"}).fingerprint
+    );
+    for (const char* word : {"--fstop=2.8", "--focus=3"})
+        refuse(std::string(word).substr(0, 7), Words{word});
+    refuse("method resolved has no lens yet", Words{"--fstop=2.8"});
+    for (const char* bad : {"-1", "nan", "inf", "1e99", "x", ""}) {
+        refuse("--fstop", Words{"--method=truth", std::string("--fstop=") + bad});
+        refuse("--focus", Words{"--method=truth", std::string("--focus=") + bad});
+    }
+    refuse("--focus", Words{"--method=truth", "--focus=0"});
+    refuse("fStop", Words{"--method=truth", "--fstop=0.001"});
+}
+
 TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
     EXPECT_EQ(
         accept(Words{"--method=accumulate", "--pixel=box"}).shot.pixel, extract::PixelModel::Box

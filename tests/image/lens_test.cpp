@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// The lens, in the methods that have one: what is in focus stays, a point of light becomes the
+// image of the opening, and both truths see the same.
+#include "engine/image/metrics.h"
+#include "engine/scene/lens.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using scene::CameraLens;
+using test::SceneBuilder;
+using test::Shot;
+using test::Stage;
+
+constexpr double kYFov = 0.9;
+
+class LensLaw : public test::GpuTest {};
+
+/// A wall of waves at 5 m, a white box before it that tumbles, if anything moves.
+SceneBuilder makeRoom(const CameraLens& lens, bool moves = false) {
+    SceneBuilder scene;
+    scene.setPerspective(kYFov);
+    scene.world.registry.add(scene.camera, lens);
+    scene.add(test::makeQuad(14, 9, scene.addWaves()), {.position = {0, 0, -5}});
+    test::Placement box{.position = {0.2, 0.1, -2}};
+    if (moves) {
+        box.velocity = {0.5, 0.2, 0.3};
+        box.angularVelocity = {0.3, 2.0, 1.0};
+    }
+    scene.add(test::makeBox({0.6, 0.6, 0.6}, scene.addColor({0.9f, 0.8f, 0.7f})), box);
+    return scene;
+}
+
+TEST_F(LensLaw, AClosedLensIsThePinholeToTheBit) {
+    std::vector<std::string_view> methods{"accumulate"};
+    if (device().hasRayQuery())
+        methods = {"accumulate", "truth", "denoised"};
+    for (const std::string_view method : methods) {
+        Shot shot{.method = method, .width = 48, .height = 32};
+        SceneBuilder scene = makeRoom({}, true);
+        scene.world.registry.remove<CameraLens>(scene.camera);
+        Stage stage(device(), scene);
+        const render::FrameResult pinhole = stage.render(shot);
+        for (const CameraLens& lens :
+             {CameraLens{.fStop = 0.0}, CameraLens{.fStop = 0.5, .blurScale = 0.0}}) {
+            scene.world.registry.add(scene.camera, lens);
+            const render::FrameResult closed = stage.render(shot);
+            EXPECT_TRUE(test::sameBits(closed.color, pinhole.color)) << method;
+            EXPECT_EQ(closed.statistics.passes.size(), pinhole.statistics.passes.size()) << method;
+        }
+        scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
+        EXPECT_FALSE(test::sameBits(stage.render(shot).color, pinhole.color)) << method;
+    }
+}
+
+TEST_F(LensLaw, MethodsWithoutALensDrawThePinhole) {
+    SceneBuilder scene = makeRoom({.fStop = 0.5, .focusDistance = 5.0}, true);
+    Stage stage(device(), scene);
+    for (const std::string_view method : {"sharp", "resolved", "gather"}) {
+        const Shot shot{.method = method, .width = 48, .height = 32};
+        const image::Image open = stage.render(shot).color;
+        scene.world.registry.remove<CameraLens>(scene.camera);
+        EXPECT_TRUE(test::sameBits(open, stage.render(shot).color)) << method;
+        scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
+    }
+}
+
+TEST_F(LensLaw, APlaneInFocusIsSharpAndSurfacesOfOneColourStayIt) {
+    SceneBuilder scene;
+    scene.setPerspective(kYFov);
+    scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
+    scene.add(test::makeQuad(20, 14, scene.addWaves()), {.position = {0, 0, -5}});
+    Stage stage(device(), scene);
+    const image::Image sharp = stage.render({.width = 64, .height = 36}).color;
+    const image::Image seen =
+        stage.render({.method = "accumulate", .width = 64, .height = 36, .instants = 64}).color;
+    EXPECT_LT(
+        test::computeMaxDifferenceWhere(sharp, seen, [](uint32_t, uint32_t) { return true; }), 4e-3
+    );
+
+    SceneBuilder grey;
+    grey.setPerspective(kYFov);
+    grey.world.registry.add(grey.camera, CameraLens{.fStop = 0.5, .focusDistance = 3.0});
+    for (const double z : {-1.0, -3.0, -9.0})
+        grey.add(test::makeQuad(1, 1, grey.addColor({0.5f, 0.5f, 0.5f})), {.position = {0, 0, z}});
+    const image::Image flat = test::renderOnce(
+                                  device(),
+                                  grey,
+                                  {.method = "accumulate",
+                                   .width = 64,
+                                   .height = 36,
+                                   .background = math::vec3(0.5f),
+                                   .instants = 64}
+    )
+                                  .color;
+    for (uint32_t y = 0; y < 36; ++y)
+        for (uint32_t x = 0; x < 64; ++x)
+            ASSERT_NEAR(flat.at(x, y, 1), 0.5f, 1e-4f) << x << " " << y;
+}
+
+/// Of a picture's light.
+struct Spot {
+    math::dvec2 centre{0.0};
+    math::dvec2 variance{0.0};
+    double skew = 0.0; ///< third moment to the right
+};
+
+Spot measureSpot(const image::Image& picture) {
+    Spot spot;
+    spot.centre = test::computeCentroid(picture);
+    double light = 0.0;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x) {
+            const double value = picture.at(x, y, 1);
+            const math::dvec2 from = math::dvec2(x + 0.5, y + 0.5) - spot.centre;
+            light += value;
+            spot.variance += value * from * from;
+            spot.skew += value * from.x * from.x * from.x;
+        }
+    spot.variance /= light;
+    spot.skew /= light;
+    return spot;
+}
+
+constexpr uint32_t kSpotWidth = 96;
+constexpr uint32_t kSpotHeight = 64;
+
+/// A white dot, 3 px wide, alone at a depth.
+Spot drawSpot(gpu::Device& device, const CameraLens& lens, double depth) {
+    SceneBuilder scene;
+    scene.setPerspective(kYFov);
+    scene.world.registry.add(scene.camera, lens);
+    const double pixel = 2.0 * std::tan(kYFov / 2.0) / kSpotHeight * depth;
+    scene.add(
+        test::makeQuad(3 * pixel, 3 * pixel, scene.addColor({1, 1, 1})),
+        {.position = {0, 0, -depth}}
+    );
+    return measureSpot(test::renderOnce(
+                           device,
+                           scene,
+                           {.method = "accumulate",
+                            .width = kSpotWidth,
+                            .height = kSpotHeight,
+                            .exposureSeconds = 0.0,
+                            .instants = 256,
+                            .pixel = accumulate::PixelModel::Box}
+    )
+                           .color);
+}
+
+/// A disc of diameter D has the variance (D / 4)^2 along each axis.
+math::dvec2 findDiameters(const Spot& spot, const Spot& sharp) {
+    return 4.0 * glm::sqrt(glm::max(spot.variance - sharp.variance, math::dvec2(0.0)));
+}
+
+TEST_F(LensLaw, APointOfLightIsADiscOfTheThinLenssDiameter) {
+    const double pixelsPerUnit = kSpotHeight / (2.0 * std::tan(kYFov / 2.0));
+    const Spot sharp = drawSpot(device(), {}, 3.0);
+    for (const double depth : {1.5, 2.0, 3.0, 6.0, 30.0}) {
+        CameraLens lens{.fStop = 0.05, .focusDistance = 3.0};
+        for (const double squeeze : {1.0, 0.5}) {
+            lens.squeeze = squeeze;
+            const Spot spot = drawSpot(device(), lens, depth);
+            const math::dvec2 diameters = findDiameters(spot, sharp);
+            const double expected = scene::computeConfusionDiameter(
+                lens, scene::computeLensRadius(lens, kYFov), depth, pixelsPerUnit
+            );
+            EXPECT_NEAR(diameters.x, expected * squeeze, 0.5) << depth;
+            EXPECT_NEAR(diameters.y, expected, 0.5) << depth;
+            EXPECT_NEAR(spot.centre.x, kSpotWidth / 2.0, 0.1) << depth;
+            EXPECT_NEAR(spot.centre.y, kSpotHeight / 2.0, 0.1) << depth;
+        }
+        lens.squeeze = 1.0;
+        const double whole = findDiameters(drawSpot(device(), lens, depth), sharp).y;
+        lens.fStop *= 2.0;
+        EXPECT_NEAR(findDiameters(drawSpot(device(), lens, depth), sharp).y, whole / 2.0, 0.5);
+    }
+}
+
+TEST_F(LensLaw, BeforeTheFocusTheOpeningIsUpsideDown) {
+    const CameraLens lens{
+        .fStop = 0.05, .focusDistance = 3.0, .blades = 3}; // a corner to the right
+    const double behind = drawSpot(device(), lens, 6.0).skew;
+    const double before = drawSpot(device(), lens, 2.0).skew; // as far from it in 1 / z
+    EXPECT_GT(behind, 10.0);
+    EXPECT_NEAR(before / behind, -1.0, 0.05);
+}
+
+class LensTruthLaw : public test::RayTest {};
+
+TEST_F(LensTruthLaw, RaysAndSheardPicturesSeeTheSameThroughTheLens) {
+    const CameraLens disc{.fStop = 0.2, .focusDistance = 3.0};
+    const CameraLens hexagon{
+        .fStop = 0.3, .focusDistance = 1.5, .blades = 6, .bladeRotation = 0.3, .squeeze = 0.6};
+    for (const auto& [lens, moves] : {std::pair{disc, false}, {disc, true}, {hexagon, true}}) {
+        const SceneBuilder scene = makeRoom(lens, moves);
+        Stage stage(device(), scene);
+        for (const auto pixel : {accumulate::PixelModel::Centre, accumulate::PixelModel::Box}) {
+            Shot shot{.width = 64, .height = 36, .instants = 256, .pixel = pixel};
+            const image::Image sharp = stage.render(shot).color;
+            shot.method = "truth";
+            const image::Image rays = stage.render(shot).color;
+            shot.method = "accumulate";
+            const image::Image pictures = stage.render(shot).color;
+            RecordProperty("psnr", std::to_string(image::computePsnr(rays, pictures)));
+            EXPECT_GE(image::computePsnr(rays, pictures), 40.0) << moves << int(pixel);
+            EXPECT_LE(image::computePsnr(rays, sharp), 35.0) << "nothing is blurred";
+        }
+    }
+}
+
+TEST_F(LensTruthLaw, RaysFollowALensThatIsFocusedStoppedDownAndZoomed) {
+    SceneBuilder scene = makeRoom({});
+    scene.world.registry.add(
+        scene.camera,
+        scene::FocusMotion{
+            {{-0.5, 1.5, 0.2, false}, {0.5, 6.0, 0.5, false}}, scene::PathInterpolation::Linear}
+    );
+    scene.world.registry.add(
+        scene.camera, scene::LensMotion{{{-0.5, 0.8}, {0.5, 1.0}}, {}, scene::PathEase::None}
+    );
+    Stage stage(device(), scene);
+    Shot shot{.width = 64, .height = 36, .instants = 256};
+    shot.method = "truth";
+    const image::Image rays = stage.render(shot).color;
+    shot.method = "accumulate";
+    EXPECT_GE(image::computePsnr(rays, stage.render(shot).color), 40.0);
+}
+
+TEST_F(LensTruthLaw, DenoisedRaysAreTheTruthsWhereThereAreMany) {
+    const SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = 3.0});
+    Stage stage(device(), scene);
+    Shot shot{.method = "denoised", .width = 64, .height = 36, .exposureSeconds = 0.0};
+    shot.settings.sampleCount = 64;
+    const image::Image denoised = stage.render(shot).color;
+    shot.method = "truth";
+    shot.instants = 256;
+    EXPECT_GE(image::computePsnr(denoised, stage.render(shot).color), 30.0);
+}
+
+TEST_F(LensLaw, LensAndShutterTogetherAreTheMeanOverBoth) {
+    SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = 5.0}, true);
+    Stage stage(device(), scene);
+    Shot shot{.method = "accumulate", .width = 64, .height = 36, .instants = 256};
+    const image::Image joint = stage.render(shot).color;
+
+    constexpr int kTimes = 32;
+    image::Image mean;
+    shot.instants = 64;
+    shot.exposureSeconds = 0.0;
+    for (int i = 0; i < kTimes; ++i) {
+        shot.seconds = (i + 0.5) / kTimes - 0.5;
+        const image::Image one = stage.render(shot).color;
+        if (i == 0)
+            mean = image::Image(one.width, one.height, one.channels);
+        for (size_t k = 0; k < one.pixels.size(); ++k)
+            mean.pixels[k] += one.pixels[k] / kTimes;
+    }
+    shot.seconds = 0.0;
+    const image::Image lensOnly = stage.render(shot).color;
+    scene.world.registry.remove<CameraLens>(scene.camera);
+    shot.exposureSeconds = 1.0;
+    const image::Image timeOnly = stage.render(shot).color;
+    const double both = image::computePsnr(joint, mean);
+    EXPECT_GE(both, 40.0);
+    EXPECT_GE(both, image::computePsnr(lensOnly, mean) + 6.0);
+    EXPECT_GE(both, image::computePsnr(timeOnly, mean) + 6.0);
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// The lens: the shape of its opening, what it does to points, its keys, and what is refused.
+#include "engine/scene/lens.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace shutter::scene {
+namespace {
+
+using math::dvec2;
+using shader::Aperture;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// How far the opening reaches in a direction.
+double findReach(const Aperture& aperture, double angle) {
+    constexpr int kSteps = 512;
+    double reach = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int edge = 0; edge < 4; ++edge) { // of the square, which becomes the opening's
+            const float along = float(i) / kSteps;
+            const float side = edge % 2 == 0 ? 0.0f : 1.0f;
+            const math::vec2 place = edge < 2 ? math::vec2(along, side) : math::vec2(side, along);
+            const dvec2 point(shader::aperturePoint(aperture, place));
+            reach = std::max(reach, glm::dot(point, dvec2(std::cos(angle), std::sin(angle))));
+        }
+    return reach;
+}
+
+TEST(Aperture, APolygonHasItsCornersAndSides) {
+    for (const uint32_t blades : {3u, 5u, 6u, 16u})
+        for (const double rotation : {0.0, 0.3, -2.0})
+            for (uint32_t i = 0; i < blades; ++i) {
+                const Aperture aperture{blades, float(rotation), 0.0f, 1.0f};
+                const double corner = rotation + 2.0 * kPi * i / blades;
+                const double side = corner + kPi / blades;
+                EXPECT_NEAR(findReach(aperture, corner), 1.0, 1e-3) << blades;
+                EXPECT_NEAR(findReach(aperture, side), std::cos(kPi / blades), 1e-3) << blades;
+            }
+}
+
+TEST(Aperture, SqueezeIsWidthByHeight) {
+    for (const float squeeze : {0.5f, 1.0f, 2.0f}) {
+        const Aperture aperture{0, 0.0f, 0.0f, squeeze};
+        EXPECT_NEAR(findReach(aperture, 0.0), squeeze, 1e-3);
+        EXPECT_NEAR(findReach(aperture, kPi), squeeze, 1e-3);
+        EXPECT_NEAR(findReach(aperture, kPi / 2.0), 1.0, 1e-3);
+    }
+}
+
+TEST(Aperture, EqualAreasOfTheSquareAreEqualAreasOfTheOpening) {
+    constexpr int kCells = 32;
+    for (const Aperture& aperture :
+         {Aperture{0, 0.0f, 0.0f, 1.0f},
+          Aperture{0, 0.0f, 0.0f, 2.0f},
+          Aperture{3, 0.0f, 0.0f, 1.0f},
+          Aperture{6, 0.4f, 0.0f, 0.5f},
+          Aperture{5, 0.0f, 0.5f, 1.0f},
+          Aperture{5, 0.0f, 1.0f, 1.0f}}) {
+        const double sector = 2.0 * kPi / std::max(aperture.blades, 1u);
+        const double polygon =
+            aperture.blades == 0 ? kPi : 0.5 * aperture.blades * std::sin(sector);
+        const double area = aperture.squeeze * std::lerp(polygon, kPi, double(aperture.roundness));
+        double sum = 0.0;
+        for (int y = 0; y < kCells; ++y)
+            for (int x = 0; x < kCells; ++x) {
+                const auto at = [&](int i, int j) {
+                    const math::vec2 place(float(x + i) / kCells, float(y + j) / kCells);
+                    return dvec2(shader::aperturePoint(aperture, place));
+                };
+                const dvec2 across = at(1, 1) - at(0, 0);
+                const dvec2 back = at(0, 1) - at(1, 0);
+                const double cell = 0.5 * (across.x * back.y - across.y * back.x);
+                sum += cell;
+                // Cells that hold a fold of the map are no parallelograms.
+                EXPECT_NEAR(cell * kCells * kCells / area, 1.0, 0.15) << x << " " << y;
+            }
+        EXPECT_NEAR(sum / area, 1.0, 0.01) << aperture.blades << " " << aperture.roundness;
+    }
+}
+
+TEST(Lens, TheCircleOfConfusionIsTheThinLenss) {
+    CameraLens lens{.fStop = 2.0, .focusDistance = 4.0};
+    const double yFov = 2.0 * std::atan(0.5); // f is the sensor's height
+    const double radius = computeLensRadius(lens, yFov);
+    EXPECT_NEAR(radius, 0.006, 1e-12);
+    EXPECT_EQ(computeConfusionDiameter(lens, radius, 4.0, 500.0), 0.0);
+    EXPECT_NEAR(computeConfusionDiameter(lens, radius, 2.0, 500.0), 1.5, 1e-12);
+    EXPECT_NEAR(computeConfusionDiameter(lens, radius, kInfinity, 500.0), 1.5, 1e-12);
+    lens.fStop *= 2.0;
+    EXPECT_NEAR(computeLensRadius(lens, yFov), radius / 2.0, 1e-12);
+    lens.blurScale = 2.0;
+    EXPECT_NEAR(computeLensRadius(lens, yFov), radius, 1e-12);
+    for (CameraLens none : {CameraLens{.fStop = 0.0}, CameraLens{.fStop = 1.0, .blurScale = 0.0}})
+        EXPECT_EQ(computeLensRadius(none, yFov), 0.0);
+}
+
+TEST(Lens, EachFieldIsGuarded) {
+    const std::vector<std::pair<const char*, std::function<void(CameraLens&, double)>>> fields = {
+        {"fStop", [](CameraLens& lens, double x) { lens.fStop = x; }},
+        {"focusDistance", [](CameraLens& lens, double x) { lens.focusDistance = x; }},
+        {"sensorHeight", [](CameraLens& lens, double x) { lens.sensorHeight = x; }},
+        {"bladeRotation", [](CameraLens& lens, double x) { lens.bladeRotation = x; }},
+        {"roundness", [](CameraLens& lens, double x) { lens.roundness = x; }},
+        {"squeeze", [](CameraLens& lens, double x) { lens.squeeze = x; }},
+        {"blurScale", [](CameraLens& lens, double x) { lens.blurScale = x; }}};
+    const auto refuses = [&](const char* field, const CameraLens& lens) {
+        const core::Status valid = validate(lens, "lens.");
+        ASSERT_FALSE(valid.ok()) << field;
+        EXPECT_TRUE(valid.error().message.starts_with(std::string("lens.") + field))
+            << valid.error().message;
+    };
+    EXPECT_TRUE(validate(CameraLens{}).ok());
+    for (const auto& [field, set] : fields)
+        for (const double bad : {kNan, kInfinity, -kInfinity, -10.0, 2.0e9}) {
+            CameraLens lens;
+            set(lens, bad);
+            refuses(field, lens);
+        }
+    refuses("fStop", {.fStop = 1.0e-3});
+    refuses("focusDistance", {.focusDistance = 0.0});
+    refuses("sensorHeight", {.sensorHeight = 0.0});
+    refuses("squeeze", {.squeeze = 0.0});
+    for (const uint32_t blades : {1u, 2u, 17u})
+        refuses("blades", {.blades = blades});
+}
+
+class Focus : public testing::Test {
+  protected:
+    Focus() : mCamera(mWorld.registry.create()) {
+        mWorld.registry.add(mCamera, Camera{});
+        mWorld.registry.add(mCamera, CameraLens{.fStop = 2.0, .focusDistance = 7.0});
+    }
+
+    void pull(std::vector<FocusKey> keys, PathInterpolation interpolation) {
+        const FocusMotion motion{std::move(keys), interpolation, PathEase::None};
+        ASSERT_TRUE(validateFocus(motion).ok());
+        mWorld.registry.add(mCamera, motion);
+    }
+
+    [[nodiscard]] CameraLens at(double seconds) const { return lensAt(mWorld, mCamera, seconds); }
+
+    World mWorld;
+    ecs::Entity mCamera;
+};
+
+TEST_F(Focus, DistancesAreInterpolatedAsInversesAndFNumbersAsLogarithms) {
+    pull({{0.0, 1.0, 2.0, false}, {1.0, 3.0, 8.0, false}}, PathInterpolation::Linear);
+    EXPECT_NEAR(at(0.5).focusDistance, 1.5, 1e-12);
+    EXPECT_NEAR(at(0.5).fStop, 4.0, 1e-12);
+    for (const double seconds : {-5.0, 0.0}) {
+        EXPECT_EQ(at(seconds).focusDistance, 1.0);
+        EXPECT_EQ(at(seconds).fStop, 2.0);
+    }
+    EXPECT_NEAR(at(9.0).focusDistance, 3.0, 1e-12);
+}
+
+TEST_F(Focus, WhatKeysLeaveOutIsTheLenss) {
+    pull({{0.0, 1.0, {}, false}}, PathInterpolation::Linear);
+    EXPECT_EQ(at(0.0).fStop, 2.0);
+    EXPECT_EQ(at(0.0).focusDistance, 1.0);
+    mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
+    EXPECT_EQ(at(0.0).fStop, 0.0) << "it has no focal length";
+}
+
+TEST_F(Focus, ACutJumpsAndACurveStaysThisSideOfInfinity) {
+    pull(
+        {{0.0, 1.0, {}, false}, {1.0, 3.0, {}, true}, {2.0, 3.0, {}, false}},
+        PathInterpolation::CatmullRom
+    );
+    EXPECT_EQ(at(0.999).focusDistance, 1.0);
+    EXPECT_EQ(at(1.0).focusDistance, 3.0);
+    pull(
+        {{0.0, 0.1, {}, false}, {1.0, 1.0e9, {}, false}, {2.0, 9.0e8, {}, false}},
+        PathInterpolation::CatmullRom
+    );
+    for (double seconds = 0.0; seconds <= 2.0; seconds += 0.01) {
+        ASSERT_GE(at(seconds).focusDistance, 0.05) << seconds;
+        ASSERT_LE(at(seconds).focusDistance, 1.1e9) << seconds;
+    }
+}
+
+TEST_F(Focus, BadKeysAreRefused) {
+    const auto refuses = [](std::vector<FocusKey> keys) {
+        EXPECT_FALSE(validateFocus({std::move(keys)}).ok());
+    };
+    refuses({});
+    refuses({{kNan, 1.0, {}, false}});
+    refuses({{1.0, 1.0, {}, false}, {1.0, 1.0, {}, false}});
+    refuses({{1.0, 1.0, {}, false}, {2.0, {}, 1.0, false}});
+    for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
+        refuses({{0.0, bad, {}, false}});
+        refuses({{0.0, {}, bad, false}});
+    }
+}
+
+} // namespace
+} // namespace shutter::scene
