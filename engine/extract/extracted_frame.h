@@ -83,8 +83,8 @@ struct ViewRequest {
     Jittered jittered = Jittered::All;
     /// Edges are drawn with several samples per pixel while the camera moves, where the device can.
     bool samplesEdges = false;
-    /// The picture is what the camera's lens sees (scene::CameraLens), of which the method takes
-    /// many places; false: what a pinhole in its middle does.
+    /// The camera has a lens (scene::hasLens()), and the picture is what it sees: the method takes
+    /// many places of it. False: what a pinhole in its middle sees.
     bool usesLens = false;
     /// Where in the lens the raster is taken from, [0, 1)^2 (aperturePoint()); nothing: its middle.
     std::optional<math::dvec2> lensPlace{};

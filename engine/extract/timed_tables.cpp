@@ -138,7 +138,7 @@ class Builder {
     }
 
     void addLens() {
-        if (!mRequest.usesLens || !scene::hasLens(mWorld, mRequest.camera))
+        if (!mRequest.usesLens)
             return;
         const bool changes =
             mWorld.registry.find<scene::FocusMotion>(mRequest.camera) || mMotion.mayCameraZoom();
@@ -150,7 +150,9 @@ class Builder {
                 {float(scene::computeLensRadius(lens, mMotion.cameraYFov(s))),
                  float(1.0 / lens.focusDistance)}
             );
-            mTables.aperture = scene::describeAperture(lens);
+            const shader::Aperture aperture = scene::describeAperture(lens);
+            mTables.aperture = {
+                float(aperture.blades), aperture.rotation, aperture.roundness, aperture.squeeze};
         }
     }
 

@@ -36,7 +36,7 @@ struct TimedTables {
     MotionKeys camera;     ///< eyeFromView, widened by the lens as TimedConstants::cameraKeys
     math::vec4 view{0.0f}; ///< TimedConstants::view
     std::vector<shader::LensKey> lens;    ///< TimedConstants::lensKeys; empty: a pinhole
-    shader::Aperture aperture{};          ///< of `lens`
+    math::vec4 aperture{0.0f};            ///< TimedConstants::aperture
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be met, in spatial order

@@ -35,7 +35,7 @@ struct ViewFacts {
     uint32_t height = 0;
     bool moves = false; ///< something in the picture, or the camera, moves
     double exposureSeconds = 0.0;
-    bool lensIsOpen = false; ///< ViewRequest::usesLens, and the camera is no pinhole
+    bool usesLens = false;   ///< ViewRequest::usesLens
     double rasterTime = 1.0; ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
     bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced

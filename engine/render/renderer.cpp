@@ -9,7 +9,6 @@
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/render/shadow_maps.h"
-#include "engine/scene/lens.h"
 
 #include <array>
 #include <chrono>
@@ -32,6 +31,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.moves = moves;
     if (!request.view.instant)
         facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
+    facts.usesLens = request.view.usesLens;
     facts.rasterTime = request.view.exposure.rasterTime;
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
@@ -209,7 +209,6 @@ core::Status Renderer::submitFrame(
         return extracted.error();
     extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
-    facts.lensIsOpen = request.view.usesLens && scene::hasLens(world, request.view.camera);
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;

@@ -94,7 +94,7 @@ CameraLens lensAt(const World& world, ecs::Entity camera, double seconds) {
 
 bool hasLens(const World& world, ecs::Entity camera) {
     const auto* motion = world.registry.find<FocusMotion>(camera);
-    const double first = motion ? motion->keys.front().seconds : 0.0;
+    const double first = motion && !motion->keys.empty() ? motion->keys.front().seconds : 0.0;
     const CameraLens lens = lensAt(world, camera, first);
     return lens.fStop != 0.0 && lens.blurScale != 0.0;
 }

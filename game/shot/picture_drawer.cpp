@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/scene/lens.h"
 
 #include <fmt/format.h>
 
@@ -58,7 +59,8 @@ PictureRequest makePicture(
 ) {
     PictureRequest picture;
     picture.frame.view = makeView(shot, options, seconds);
-    picture.frame.view.usesLens = options.usesLens && method.method->hasLens;
+    picture.frame.view.usesLens =
+        options.usesLens && method.method->hasLens && scene::hasLens(shot.world, shot.camera);
     picture.method = method;
     picture.pixel = options.pixel;
     picture.seed = options.seed;

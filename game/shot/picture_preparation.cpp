@@ -3,7 +3,6 @@
 // instants it takes, and in what parts.
 #include "engine/core/check.h"
 #include "engine/core/log.h"
-#include "engine/scene/lens.h"
 #include "game/shot/picture_drawer.h"
 
 #include <fmt/format.h>
@@ -127,8 +126,7 @@ std::vector<extract::ExposurePart> PictureDrawer::planExposure(
 }
 
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
-    const extract::ViewRequest& view = request.frame.view;
-    if (view.usesLens && scene::hasLens(world, view.camera))
+    if (request.frame.view.usesLens)
         return core::makeError(
             "--instants auto measures motion, not what the lens blurs: give --samples, or --fstop 0"
         );

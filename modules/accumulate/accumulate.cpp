@@ -37,11 +37,13 @@ double wrap(double x) {
     return x - std::floor(x);
 }
 
-math::dvec2 placeInLens(uint32_t index, uint32_t count, uint32_t seed) {
-    const math::uvec3 point = shader::sobolPoint(index);
+/// A point of Sobol's sequence in the middle of its stratum, moved by the seed.
+/// \param irrational a number of the seed's shift for each axis
+math::dvec2
+placeOf(const math::uvec2& point, uint32_t count, uint32_t seed, const math::dvec2& irrational) {
     return {
-        wrap(point.y * 0x1p-32 + 0.5 / count + seedShift(seed, 0.8566748838545029)),
-        wrap(point.z * 0x1p-32 + 0.5 / count + seedShift(seed, 0.7338918566271260))};
+        wrap(point.x * 0x1p-32 + 0.5 / count + seedShift(seed, irrational.x)),
+        wrap(point.y * 0x1p-32 + 0.5 / count + seedShift(seed, irrational.y))};
 }
 
 } // namespace
@@ -60,10 +62,23 @@ extract::ViewRequest makeInstant(
         instant.exposure = scene::takePart(view.exposure, view.exposure.open, view.exposure.close);
     instant.instant = scene::invertLight(view.exposure, (index + 0.5) / count);
     if (view.usesLens)
-        instant.lensPlace = placeInLens(index, count, seed);
+        instant.lensPlace = placeOf(
+            math::uvec2(shader::sobolPoint(index)),
+            count,
+            seed,
+            {0.8566748838545029, 0.7338918566271260}
+        );
     if (pixel == PixelModel::Centre)
         return instant;
-    return makeSubpixel(instant, index, count, seed);
+    instant = makeSubpixel(instant, index, count, seed);
+    // Halton's third base leans on Sobol's dimensions.
+    if (view.usesLens)
+        instant.jitterPx =
+            placeOf(
+                shader::sobolPoint45(index), count, seed, {0.6287067210378087, 0.5385972572236101}
+            ) -
+            0.5;
+    return instant;
 }
 
 extract::ViewRequest

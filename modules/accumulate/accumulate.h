@@ -19,8 +19,8 @@ using extract::PixelModel;
 /// The i-th of `count` sharp views: time stratified over the exposure's light (the middle of each
 /// stratum; with a box response, of each stretch of time), place in the pixel by a (2, 3)-Halton
 /// sequence, so that the two together are a Hammersley set. Box also sharpens textures to what
-/// `count` samples can resolve. Where the view uses the lens, the place there is that of Sobol's
-/// second and third dimension, whose first is the pixel's: no two depend on each other.
+/// `count` samples can resolve. Where the view uses the lens, places in the lens and in the pixel
+/// are those of Sobol's sequence in four dimensions: no two depend on each other, nor on the time.
 /// \param seed another seed gives another set of places
 [[nodiscard]] extract::ViewRequest makeInstant(
     const extract::ViewRequest& view,

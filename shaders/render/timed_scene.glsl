@@ -3,6 +3,7 @@
 #ifndef SHUTTER_MOVING_SCENE_GLSL
 #define SHUTTER_MOVING_SCENE_GLSL
 
+#include "common/aperture.glsl"
 #include "render/hit.glsl"
 #include "render/lighting.glsl"
 #include "render/timed_scene_shared.h"
@@ -126,7 +127,9 @@ ShutterRay makeLensRay(FrameRef frame, TimedRef moving, vec2 screenPx, vec2 plac
     ShutterRay ray = makeShutterRay(frame, moving, screenPx, s);
     if (moving.value.lensKeyCount == 0u) return ray;
     LensKey lens = lensAt(moving, s);
-    vec2 aside = lens.radius * aperturePoint(moving.value.aperture, place);
+    vec4 shape = moving.value.aperture;
+    Aperture aperture = Aperture(uint(shape.x), shape.y, shape.z, shape.w);
+    vec2 aside = lens.radius * aperturePoint(aperture, place);
     vec4 rows[3];
     interpolate(moving.value.cameraKeys, moving.value.cameraKeyCount, s, rows);
     vec3 right = normalize(vec3(rows[0].x, rows[1].x, rows[2].x));

@@ -4,7 +4,7 @@
 #ifndef SHUTTER_MOVING_SCENE_SHARED_H
 #define SHUTTER_MOVING_SCENE_SHARED_H
 
-#include "common/aperture.glsl"
+#include "common/shim.h"
 
 SHUTTER_SHADER_BEGIN
 
@@ -46,7 +46,7 @@ struct TimedConstants {
     uint lightCount;
     uint lensKeyCount; // 0: a pinhole
     uvec2 lensKeys;    // address of LensKey[], uniform over s, both ends included
-    Aperture aperture; // of the lens
+    vec4 aperture;     // Aperture's fields
     uint padding0;
     uint padding1;
 };

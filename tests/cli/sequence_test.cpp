@@ -64,6 +64,41 @@ class Sequence : public Cli {
 
 } // namespace
 
+TEST_F(Sequence, AMethodWithoutALensSaysThatItDrawsAPinhole) {
+    const auto write = [&](const std::string& lens) {
+        writeFile(
+            "flight.json",
+            R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 1, 0], )" +
+                lens + "}]}"
+        );
+    };
+    write(R"("focusDistance": 2, "fStop": 0.5)");
+    const Outcome sharp = run(fly({"--out", "f_%04d.png"}));
+    EXPECT_EQ(sharp.status, 0);
+    EXPECT_NE(sharp.err.find("method sharp draws the camera as a pinhole"), std::string::npos)
+        << sharp.err;
+    const Arguments accumulate = {"--method", "accumulate", "--samples", "4"};
+    const auto with = [&](const std::string& out, const Arguments& more) {
+        Arguments all = accumulate;
+        all.insert(all.end(), {"--out", out});
+        all.insert(all.end(), more.begin(), more.end());
+        return fly(all);
+    };
+    expectSuccess(with("open_%d.png", {}));
+    expectSuccess(with("option_%d.png", {"--focus", "2", "--fstop", "0.5"}));
+    expectSuccess(with("closed_%d.png", {"--fstop", "0"}));
+    EXPECT_EQ(readFile("open_0.png"), readFile("option_0.png"));
+    EXPECT_NE(readFile("open_0.png"), readFile("closed_0.png"));
+    expectRefusal(with("auto_%d.png", {"--instants", "auto"}), 1, {"--instants auto", "--fstop 0"});
+    write(R"("fStop": 0.5)");
+    expectSuccess(with("far_%d.png", {"--focus", "100"}));
+    EXPECT_NE(readFile("far_0.png"), readFile("open_0.png"));
+    write(R"("focusDistance": 0)");
+    expectRefusal(with("bad_%d.png", {}), 1, {"flight.json", "keys[0].focusDistance"});
+    write(R"("cut": false)");
+    expectRefusal(with("none_%d.png", {"--focus", "2"}), 1, {"--focus needs --fstop"});
+}
+
 TEST_F(Sequence, AFlythroughRenderedTwiceIsTheSameAndTheSecondTimeInOneFolderSkipped) {
     for (const char* folder : {"a", "b"}) {
         fs::create_directory(path(folder));

@@ -2,6 +2,7 @@
 #include "tests/support/stage.h"
 
 #include "engine/image/metrics.h"
+#include "engine/scene/lens.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,8 @@ core::Result<game::PictureRequest> makePicture(const SceneBuilder& scene, const 
     const game::MethodFamily family = method.value()->family;
     game::PictureRequest picture;
     picture.frame = makeRequest(scene, shot);
-    picture.frame.view.usesLens = method.value()->hasLens;
+    picture.frame.view.usesLens =
+        method.value()->hasLens && scene::hasLens(scene.world, scene.camera);
     picture.method.method = method.value();
     picture.method.samples = shot.instants;
     picture.method.maxStepPx = shot.maxStepPx;

@@ -83,7 +83,7 @@ void MotionBlurPlugin::chooseStandIn() {
 core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
-    if (settings().method->readsLens && facts.lensIsOpen)
+    if (settings().method->readsLens && facts.usesLens)
         return {true, "the lens is open"};
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};

@@ -88,7 +88,7 @@ TEST(Aperture, EqualAreasOfTheSquareAreEqualAreasOfTheOpening) {
     }
 }
 
-TEST(Lens, TheCircleOfConfusionIsTheThinLenss) {
+TEST(ThinLens, TheCircleOfConfusionIsTheThinLenss) {
     CameraLens lens{.fStop = 2.0, .focusDistance = 4.0};
     const double yFov = 2.0 * std::atan(0.5); // f is the sensor's height
     const double radius = computeLensRadius(lens, yFov);
@@ -104,7 +104,7 @@ TEST(Lens, TheCircleOfConfusionIsTheThinLenss) {
         EXPECT_EQ(computeLensRadius(none, yFov), 0.0);
 }
 
-TEST(Lens, EachFieldIsGuarded) {
+TEST(ThinLens, EachFieldIsGuarded) {
     const std::vector<std::pair<const char*, std::function<void(CameraLens&, double)>>> fields = {
         {"fStop", [](CameraLens& lens, double x) { lens.fStop = x; }},
         {"focusDistance", [](CameraLens& lens, double x) { lens.focusDistance = x; }},
