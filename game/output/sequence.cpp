@@ -418,6 +418,24 @@ core::Result<std::string> computeFingerprint(const RenderOptions& options, const
     ));
 }
 
+/// Warns where the method draws a pinhole although the camera has a lens. Error: the method cannot
+/// tell how many samples the lens takes.
+core::Status checkLensOf(const Shot& shot, const MethodOptions& options) {
+    if (!scene::hasLens(shot.world, shot.camera))
+        return {};
+    if (options.maxStepPx)
+        return core::makeError(
+            "--instants auto measures motion, not what the lens blurs: give --samples, or --fstop 0"
+        );
+    if (!options.method->hasLens)
+        core::logWarning(
+            "method {} draws the camera as a pinhole: only {} have a lens",
+            options.method->name,
+            listLensMethods("and")
+        );
+    return {};
+}
+
 /// The fingerprint of the same pictures drawn by this device and its driver.
 std::string
 addDevice(const std::string& fingerprint, const std::string& device, const std::string& driver) {
@@ -444,13 +462,7 @@ core::Status renderSequence(
     if (!shot)
         return shot.error();
     SHUTTER_TRY(planClipFrames(shot.value().world, options.shot));
-    const MethodInfo& method = *options.method.method;
-    if (!method.hasLens && scene::hasLens(shot.value().world, shot.value().camera))
-        core::logWarning(
-            "method {} draws the camera as a pinhole: only {} have a lens",
-            method.name,
-            listLensMethods("and")
-        );
+    SHUTTER_TRY(checkLensOf(shot.value(), options.method));
     Sequence sequence(options);
     SHUTTER_TRY(sequence.prepare(device, shot.value()));
     core::Status drawn;

@@ -126,10 +126,7 @@ std::vector<extract::ExposurePart> PictureDrawer::planExposure(
 }
 
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
-    if (request.frame.view.usesLens)
-        return core::makeError(
-            "--instants auto measures motion, not what the lens blurs: give --samples, or --fstop 0"
-        );
+    SHUTTER_CHECK(!request.frame.view.usesLens, "motion does not tell what a lens takes");
     if (!request.instants) {
         finishUntil(0); // measuring draws frames of its own
         const auto path = mRenderer.measureLongestPath(world, request.frame.view);

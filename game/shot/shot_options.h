@@ -71,7 +71,8 @@ struct MethodOptions {
     uint32_t samples = 0;        ///< in the method's sample unit
     std::optional<double> error; ///< truth: stop at this standard error, linear, above 0
     /// accumulate: as many instants as it takes for nothing visible to move farther than this
-    /// between two of them, pixels, above 0; `samples` at most. Nothing: `samples` instants.
+    /// between two of them, pixels, above 0; `samples` at most. Nothing: `samples` instants. Not
+    /// for views that use a lens (CHECKed).
     std::optional<double> maxStepPx;
     motion_blur::MotionBlurSettings motionBlur{};
     motion_blur::BlurBudget budget{}; ///< of motionBlur
