@@ -72,7 +72,7 @@ class ExposureMotion {
     /// Vertical field of view of the camera, radians; orthographic cameras have none.
     [[nodiscard]] double cameraYFov(double s) const;
 
-    /// The camera's lens, which is focused as it zooms.
+    /// The camera's lens at the time from which cameraYFov() takes the zoom.
     [[nodiscard]] CameraLens cameraLens(double s) const;
 
     /// False when cameraYFov answers the same at every shutter time.

@@ -14,7 +14,7 @@ namespace shutter::scene {
 
 namespace {
 
-/// Below it a lens is metres wide.
+/// Below it a lens is metres wide at usual fields of view.
 constexpr double kLeastFStop = 0.01;
 constexpr double kMostFStop = 1.0e9;
 constexpr double kNearestFocus = 1.0e-4; // metres
@@ -93,10 +93,13 @@ CameraLens lensAt(const World& world, ecs::Entity camera, double seconds) {
 }
 
 bool hasLens(const World& world, ecs::Entity camera) {
+    if (world.registry.get<Camera>(camera).kind == CameraKind::Orthographic)
+        return false;
+    const auto* own = world.registry.find<CameraLens>(camera);
+    const CameraLens lens = own ? *own : CameraLens{};
     const auto* motion = world.registry.find<FocusMotion>(camera);
-    const double first = motion && !motion->keys.empty() ? motion->keys.front().seconds : 0.0;
-    const CameraLens lens = lensAt(world, camera, first);
-    return lens.fStop != 0.0 && lens.blurScale != 0.0;
+    const bool isOpened = motion && !motion->keys.empty() && motion->keys.front().fStop;
+    return (lens.fStop != 0.0 || isOpened) && lens.blurScale != 0.0;
 }
 
 double computeLensRadius(const CameraLens& lens, double yFov) {

@@ -199,7 +199,7 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     for (const char* name : {"--aa", "--bloom", "--bloom-threshold", "--bloom-knee"})
         command.remove_option(command.get_option(name));
     for (CLI::Option* option : command.get_options())
-        // How a suite's shots are lit and what is true of a pixel are the only things left open.
+        // How a suite's shots are lit and the pixel filter are the only things left open.
         if (option->get_name() != "--unlit" && option->get_name() != "--pixel" &&
             std::find(before.begin(), before.end(), option) == before.end())
             arguments.shotOptions.push_back(option->group("Shot (with a SCENE)"));

@@ -30,7 +30,7 @@ struct CaseSetup {
     /// Hash of the scene's bytes, the shot's options, this program and the device: pictures with
     /// equal hashes are equal, and their times comparable.
     std::string hash;
-    /// The same without how methods smooth edges, which is nothing to the truth.
+    /// The same without how methods smooth edges, on which the truth does not depend.
     std::string truthHash;
 };
 

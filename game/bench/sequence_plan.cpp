@@ -35,11 +35,11 @@ SequencePlan planSequence(
     game::AntiAliasing antiAliasing
 ) {
     SequencePlan plan;
-    const bool hasEdges = antiAliasing == game::AntiAliasing::None;
-    plan.points = hasEdges ? makeSequencePoints(methods) : makeAntiAliasedPoints(methods);
-    // Smooth ones take frames before each picture, or beside it: one sample count is enough.
+    const bool isAliased = antiAliasing == game::AntiAliasing::None;
+    plan.points = isAliased ? makeSequencePoints(methods) : makeAntiAliasedPoints(methods);
+    // Anti-aliasing takes frames before each picture, or beside it: one sample count is enough.
     for (const SamplePoint& point :
-         hasEdges ? makeSweep(methods, kMostRays) : std::vector<SamplePoint>()) {
+         isAliased ? makeSweep(methods, kMostRays) : std::vector<SamplePoint>()) {
         // The truth would be compared with itself.
         if (point.method->family == game::MethodFamily::Accumulate &&
             point.samples >= truthInstants)

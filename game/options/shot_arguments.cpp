@@ -165,7 +165,8 @@ Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
 }
 
 Status parseLens(const ShotArguments& arguments, ShotOptions& options) {
-    SHUTTER_TRY(scene::validate(arguments.lens, "lens."));
+    const char* option = arguments.typed.contains("--fstop") ? "--fstop: " : "--focus: ";
+    SHUTTER_TRY(scene::validate(arguments.lens, option));
     if (arguments.typed.contains("--fstop"))
         options.fStop = arguments.lens.fStop;
     if (arguments.typed.contains("--focus"))

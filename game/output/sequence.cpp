@@ -424,9 +424,8 @@ core::Status checkLensOf(const Shot& shot, const MethodOptions& options) {
     if (!scene::hasLens(shot.world, shot.camera))
         return {};
     if (options.maxStepPx)
-        return core::makeError(
-            "--instants auto measures motion, not what the lens blurs: give --samples, or --fstop 0"
-        );
+        return core::makeError("--instants auto measures motion, not what the lens blurs: leave it "
+                               "out, or give --fstop 0");
     if (!options.method->hasLens)
         core::logWarning(
             "method {} draws the camera as a pinhole: only {} have a lens",

@@ -126,7 +126,7 @@ std::vector<extract::ExposurePart> PictureDrawer::planExposure(
 }
 
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
-    SHUTTER_CHECK(!request.frame.view.usesLens, "motion does not tell what a lens takes");
+    SHUTTER_CHECK(!request.frame.view.usesLens, "a step by motion knows nothing of a lens");
     if (!request.instants) {
         finishUntil(0); // measuring draws frames of its own
         const auto path = mRenderer.measureLongestPath(world, request.frame.view);

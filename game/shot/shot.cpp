@@ -140,6 +140,9 @@ core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions&
     if (!options.fStop && !options.focusDistance)
         return {};
     const char* option = options.fStop ? "--fstop" : "--focus";
+    const bool closes = options.fStop == 0.0 && !options.focusDistance;
+    if (closes && !scene::hasLens(world, camera))
+        return {};
     if (world.registry.get<scene::Camera>(camera).kind == scene::CameraKind::Orthographic)
         return makeError("{}: an orthographic camera has no focal length, so no lens", option);
     const auto* own = world.registry.find<scene::CameraLens>(camera);
@@ -154,7 +157,8 @@ core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions&
             if (options.focusDistance)
                 key.focusDistance.reset();
         }
-    if (options.focusDistance && !options.fStop && !scene::hasLens(world, camera))
+    if (options.focusDistance && !options.fStop && lens.fStop == 0.0 &&
+        !scene::hasLens(world, camera))
         return makeError("--focus needs --fstop: the camera is a pinhole");
     return {};
 }

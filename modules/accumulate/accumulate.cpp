@@ -71,7 +71,7 @@ extract::ViewRequest makeInstant(
     if (pixel == PixelModel::Centre)
         return instant;
     instant = makeSubpixel(instant, index, count, seed);
-    // Halton's third base leans on Sobol's dimensions.
+    // Halton's base 2 is Sobol's first dimension, which the lens has.
     if (view.usesLens)
         instant.jitterPx =
             placeOf(

@@ -20,8 +20,8 @@ using extract::PixelModel;
 /// stratum; with a box response, of each stretch of time), place in the pixel by a (2, 3)-Halton
 /// sequence, so that the two together are a Hammersley set. Box also sharpens textures to what
 /// `count` samples can resolve. Where the view uses the lens, places in the lens and in the pixel
-/// are those of Sobol's sequence in four dimensions: no two depend on each other, nor on the time.
-/// \param seed another seed gives another set of places
+/// are those of Sobol's sequence in four dimensions: with 32 samples and more, no two depend on
+/// each other, nor on the time. \param seed another seed gives another set of places
 [[nodiscard]] extract::ViewRequest makeInstant(
     const extract::ViewRequest& view,
     uint32_t index,

@@ -43,7 +43,7 @@ void main() {
     vec4 motionDepth = vec4(0.0f, 0.0f, kSkyDepth, 0.0f);
     for (uint i = 0u; i < params.sampleCount; ++i) {
         float s = respondAt(params.response, (float(i) + offset) / float(params.sampleCount));
-        ShutterRay ray = makeLensRay(frame, moving, centre, lensPlace(i, seed), s);
+        ShutterRay ray = makeLensRay(frame, moving, centre, i, seed, s);
         DistributedSample seen = traceDistributed(uScene, frame, moving, ray, s);
         vec3 color = storableColor(seen.radiance);
         float light = luminance(color);

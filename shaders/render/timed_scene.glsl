@@ -3,6 +3,7 @@
 #ifndef SHUTTER_MOVING_SCENE_GLSL
 #define SHUTTER_MOVING_SCENE_GLSL
 
+#include "common/sampling.glsl"
 #include "common/aperture.glsl"
 #include "render/hit.glsl"
 #include "render/lighting.glsl"
@@ -122,14 +123,15 @@ LensKey lensAt(TimedRef moving, float s) {
 }
 
 /// The same from a place of the lens, through the point in focus that the ray of its middle meets.
-/// \param place in the lens, [0, 1)^2
-ShutterRay makeLensRay(FrameRef frame, TimedRef moving, vec2 screenPx, vec2 place, float s) {
+/// \param index, seed of lensPlace()
+ShutterRay
+makeLensRay(FrameRef frame, TimedRef moving, vec2 screenPx, uint index, uint seed, float s) {
     ShutterRay ray = makeShutterRay(frame, moving, screenPx, s);
     if (moving.value.lensKeyCount == 0u) return ray;
     LensKey lens = lensAt(moving, s);
     vec4 shape = moving.value.aperture;
     Aperture aperture = Aperture(uint(shape.x), shape.y, shape.z, shape.w);
-    vec2 aside = lens.radius * aperturePoint(aperture, place);
+    vec2 aside = lens.radius * aperturePoint(aperture, lensPlace(index, seed));
     vec4 rows[3];
     interpolate(moving.value.cameraKeys, moving.value.cameraKeyCount, s, rows);
     vec3 right = normalize(vec3(rows[0].x, rows[1].x, rows[2].x));

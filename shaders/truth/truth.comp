@@ -36,7 +36,7 @@ vec2 tracePixel(ivec2 pixel) {
         vec2 place = params.boxFilter != 0u ? pixelPlace(i >> 1u, seed) : vec2(0.5f);
         float s = respondAt(params.response, shutterTime(i >> 1u, seed));
         ShutterRay ray = makeLensRay(
-            frame, moving, vec2(pixel) + place, lensPlace(i >> 1u, seed), s
+            frame, moving, vec2(pixel) + place, i >> 1u, seed, s
         );
         DistributedSample sample_ = traceDistributed(uScene, frame, moving, ray, s);
         sumA += set_ == 0u ? sample_.radiance : vec3(0.0f);

@@ -181,6 +181,8 @@ TEST_F(LensLaw, APointOfLightIsADiscOfTheThinLenssDiameter) {
         lens.squeeze = 1.0;
         const double whole = findDiameters(drawSpot(device(), lens, depth), sharp).y;
         lens.fStop *= 2.0;
+        if (depth == lens.focusDistance)
+            continue; // half of nothing
         EXPECT_NEAR(findDiameters(drawSpot(device(), lens, depth), sharp).y, whole / 2.0, 0.5);
     }
 }
@@ -199,7 +201,7 @@ TEST_F(LensLaw, BeforeTheFocusTheOpeningIsUpsideDown) {
 
 class LensTruthLaw : public test::RayTest {};
 
-TEST_F(LensTruthLaw, RaysAndSheardPicturesSeeTheSameThroughTheLens) {
+TEST_F(LensTruthLaw, RaysAndShearedPicturesSeeTheSameThroughTheLens) {
     const CameraLens disc{.fStop = 0.2, .focusDistance = 3.0};
     const CameraLens hexagon{
         .fStop = 0.3, .focusDistance = 1.5, .blades = 6, .bladeRotation = 0.3, .squeeze = 0.6};
