@@ -160,9 +160,7 @@ GBufferPass::Pipelines::Pipelines(
       moving(device, describeGeometry(scene, variant, true, targets)) {}
 
 GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
-    : mDevice(device), mScene(scene), mSplit(device), mMaySample(maySample(device)) {
-    (void)findDrawers({});
-}
+    : mDevice(device), mScene(scene), mSplit(device), mMaySample(maySample(device)) {}
 
 const GBufferPass::Drawers& GBufferPass::findDrawers(const Targets& targets) {
     auto& found = mDrawers.at((targets.mayHaveShadows ? 1 : 0) + (targets.samples > 1 ? 2 : 0));
@@ -236,7 +234,8 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
             });
         }
     );
-    return isSampled ? mSplit.declare(graph, targets, source.keepsEdges) : targets;
+    return isSampled ? mSplit.declare(graph, targets, source.keepsEdges, !frame.blended.empty())
+                     : targets;
 }
 
 } // namespace shutter::render

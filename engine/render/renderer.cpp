@@ -379,12 +379,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     scene.gbuffer = mGBufferPass.declare(
         graph,
         "G-buffer",
-        {frame,
-         mScene,
-         reads,
-         rays.frameConstants,
-         request.view.samplesEdges && !frame.isCameraAtRest,
-         running.readsEdges}
+        {frame, mScene, reads, rays.frameConstants, running.samplesEdges, running.readsEdges}
     );
     if (!running.particles.run && !particles.empty())
         scene.gbuffer.color = declareParticles(

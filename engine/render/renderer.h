@@ -170,10 +170,11 @@ class Renderer {
         core::Decision secondRaster;
         core::Decision lastRaster;
         core::Decision layer;
-        bool mayTrace = false;    ///< in another frame, if not in this
-        bool readsEdges = false;  ///< PostEffect::readsEdges of one of them
-        core::Decision particles; ///< run: they are drawn on their way through the exposure ...
-        size_t particlesAt = 0;   ///< ... after as many of `effects`
+        bool mayTrace = false;     ///< in another frame, if not in this
+        bool samplesEdges = false; ///< the frame is drawn with several samples per pixel
+        bool readsEdges = false;   ///< PostEffect::readsEdges of one of them
+        core::Decision particles;  ///< run: they are drawn on their way through the exposure ...
+        size_t particlesAt = 0;    ///< ... after as many of `effects`
     };
 
     /// What one frame in flight has of its own.

@@ -28,6 +28,7 @@ Renderer::RunningEffects Renderer::askEffects(
 ) const {
     const ViewFacts& facts = context.facts;
     RunningEffects running;
+    running.samplesEdges = context.view.samplesEdges && !frame.isCameraAtRest;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
     running.secondRaster =
         running.lastRaster = {false, "no effect that runs looks anything up in it"};
@@ -95,8 +96,7 @@ core::Status Renderer::extractForEffects(
         view.jitterPx = math::dvec2(0.0);
         view.staticLodBias = 0.0f;
     }
-    // As this frame is drawn.
-    view.samplesEdges = view.samplesEdges && !context.frame.isCameraAtRest;
+    view.samplesEdges = running.samplesEdges; // as this frame is drawn
     if (running.secondRaster.run)
         SHUTTER_TRY(
             slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(view), hidden)

@@ -33,52 +33,59 @@ struct Data {
 SampleSplit::SampleSplit(gpu::Device& device)
     : mDevice(device), mPipeline(device, describePipeline()) {}
 
-GBuffer SampleSplit::declare(graph::Graph& graph, const GBuffer& samples, bool keepsEdges) const {
+GBuffer SampleSplit::declare(
+    graph::Graph& graph, const GBuffer& samples, bool keepsEdges, bool hasBlended
+) const {
     const graph::TransientImageDesc size = graph.describeImage(samples.color);
-    const shader::SplitParams params{{size.width, size.height}, keepsEdges ? 1u : 0u, 0};
-    return graph
-        .addPass<Data>(
-            "split samples",
-            graph::PassKind::Compute,
-            [&](graph::PassBuilder& builder, Data& data) {
-                const auto create = [&](const char* name, VkFormat format) {
-                    return builder.write(
-                        graph.createImage(name, {size.width, size.height, format}),
-                        Access::StorageWrite
+    const shader::SplitParams params{
+        {size.width, size.height}, keepsEdges ? 1u : 0u, hasBlended ? 1u : 0u};
+    GBuffer result =
+        graph
+            .addPass<Data>(
+                "split samples",
+                graph::PassKind::Compute,
+                [&](graph::PassBuilder& builder, Data& data) {
+                    const auto create = [&](const char* name, VkFormat format) {
+                        return builder.write(
+                            graph.createImage(name, {size.width, size.height, format}),
+                            Access::StorageWrite
+                        );
+                    };
+                    for (const graph::ImageHandle image :
+                         {samples.color, samples.normal, samples.motionDepth, samples.entityId})
+                        builder.read(image, Access::SampledCompute);
+                    data.samples = samples;
+                    data.split.color = create("color", kColorFormat);
+                    data.split.normal = create("normal", kNormalFormat);
+                    data.split.motionDepth = create("motion depth", kMotionDepthFormat);
+                    data.split.entityId = create("entity id", kEntityIdFormat);
+                    data.split.edgeSurface = create("edge surface", kEdgeSurfaceFormat);
+                },
+                [this, params](const Data& data, graph::PassContext& context) {
+                    const graph::PassResources& resources = context.resources;
+                    const GBuffer& drawn = data.samples;
+                    const GBuffer& split = data.split;
+                    gpu::BindingList bindings;
+                    for (const graph::ImageHandle image :
+                         {drawn.color, drawn.normal, drawn.motionDepth, drawn.entityId})
+                        bindings.sampled(resources.view(image), mDevice.nearestSampler());
+                    for (const graph::ImageHandle image :
+                         {split.color,
+                          split.normal,
+                          split.motionDepth,
+                          split.entityId,
+                          split.edgeSurface})
+                        bindings.storage(resources.image(image));
+                    context.frame.bind(mPipeline.get(), bindings, &params, sizeof(params));
+                    vkCmdDispatch(
+                        context.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
                     );
-                };
-                for (const graph::ImageHandle image :
-                     {samples.color, samples.normal, samples.motionDepth, samples.entityId})
-                    builder.read(image, Access::SampledCompute);
-                data.samples = samples;
-                data.split.color = create("color", kColorFormat);
-                data.split.normal = create("normal", kNormalFormat);
-                data.split.motionDepth = create("motion depth", kMotionDepthFormat);
-                data.split.entityId = create("entity id", kEntityIdFormat);
-                data.split.edgeSurface = create("edge surface", kEdgeSurfaceFormat);
-            },
-            [this, params](const Data& data, graph::PassContext& context) {
-                const graph::PassResources& resources = context.resources;
-                const GBuffer& drawn = data.samples;
-                const GBuffer& split = data.split;
-                gpu::BindingList bindings;
-                for (const graph::ImageHandle image :
-                     {drawn.color, drawn.normal, drawn.motionDepth, drawn.entityId})
-                    bindings.sampled(resources.view(image), mDevice.nearestSampler());
-                for (const graph::ImageHandle image :
-                     {split.color,
-                      split.normal,
-                      split.motionDepth,
-                      split.entityId,
-                      split.edgeSurface})
-                    bindings.storage(resources.image(image));
-                context.frame.bind(mPipeline.get(), bindings, &params, sizeof(params));
-                vkCmdDispatch(
-                    context.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
-                );
-            }
-        )
-        .split;
+                }
+            )
+            .split;
+    if (!keepsEdges)
+        result.edgeSurface = {};
+    return result;
 }
 
 } // namespace shutter::render

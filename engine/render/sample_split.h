@@ -14,9 +14,10 @@ class SampleSplit {
 
     /// \param samples a raster of shader::kSampleCount samples per pixel
     /// \param keepsEdges GBuffer::edgeSurface is read: a pixel there has its own surface's colour
+    /// \param hasBlended blended surfaces are in its colours
     /// \return one sample per pixel
     [[nodiscard]] GBuffer
-    declare(graph::Graph& graph, const GBuffer& samples, bool keepsEdges) const;
+    declare(graph::Graph& graph, const GBuffer& samples, bool keepsEdges, bool hasBlended) const;
 
   private:
     gpu::Device& mDevice;

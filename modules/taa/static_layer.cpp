@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/taa/static_layer.h"
 
+#include "engine/core/check.h"
 #include "engine/extract/deformed_entity.h"
 #include "engine/gpu/vulkan.h"
 
@@ -127,6 +128,7 @@ void StaticLayer::extract(const render::ExtractContext& context) {
 }
 
 StaticLayer::Frame StaticLayer::turn(const render::PostContext& context) {
+    SHUTTER_CHECK(isGathering(), "nothing is static before a camera that moves");
     Frame frame = mFrame;
     if (mHasLast)
         frame.last = &mImages.at(mNewest);

@@ -24,7 +24,7 @@ layout(binding = 24) uniform accelerationStructureEXT uScene;
 
 void main() {
     uint entryIndex = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
-                 gl_LocalInvocationIndex;
+                      gl_LocalInvocationIndex;
     if (entryIndex >= uCounters.listedPixels) return;
     float shares[kSampleClasses];
     shareRays(shares);

@@ -16,6 +16,7 @@ layout(constant_id = 0) const uint kLayer = kRasterLayer;
 // is expensive.
 layout(local_size_x = kGroupSize, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kThreadRows = kGroupSize; // of a group
+layout(constant_id = 3) const bool kHasEdges = false; // pixels may show two surfaces
 layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
@@ -26,6 +27,8 @@ layout(binding = 4, scalar) buffer DeformingTiles {
     DeformingHeader header;
     uint entries[];
 } uDeforming;
+
+layout(binding = 5) uniform usampler2D uEdgeSurface; // with kHasEdges
 
 #include "motion_blur/resolved_enter.glsl"
 #include "motion_blur/resolved_extents.glsl"
@@ -75,6 +78,15 @@ Extent getListed(uint slot) {
     return extent;
 }
 
+/// Lists what covers samples of a pixel that its own surface does not.
+void listOther(LayerMotion layer, ivec2 pixel) {
+    uvec2 other = textureLod(uEdgeSurface, uvOfPixel(pixel), 0.0f).xy;
+    Extent extent = beginExtent(layer, keyOfId(other.y));
+    if (extent.deforms) return; // found by the pixels that are its own
+    growExtent(other, pixel, extent);
+    listExtent(extent);
+}
+
 /// Adds a pixel to the extent if it is of the same entity; lists the extent and begins another if it
 /// is not.
 void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
@@ -90,6 +102,7 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
         }
     }
     growExtent(surface, pixel, extent);
+    if (kHasEdges && otherSamplesOf(surface) != 0u) listOther(layer, pixel);
 }
 
 /// Where an entity of the tile is seen at the instants of a sample: those of all sets, which follow one

@@ -44,7 +44,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
     [[dont_unroll]] for (uint step_ = 0u; step_ < kPartSteps; ++step_) {
         if (!isInside(at)) return;
         ivec2 texel = ivec2(at);
-        Probe surface = fetchSurface(search.layer, texel);
+        Probe surface = fetchSurfaceAt(search.layer, at);
         if (surface.key != search.key) {
             noteMiss(search.layer, search.key, at, doubt);
             return;
@@ -59,7 +59,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
         bool isThere = isInside(at) && ivec2(at) == texel;
         if (!isThere && way > kArrivedPx && step_ + 1u < kPartSteps) continue;
         if ((!isThere && way > kTolerancePx) || !isInside(at)) return;
-        if (!isThere) surface = fetchSurface(search.layer, ivec2(at));
+        if (kHasEdges || !isThere) surface = fetchSurfaceAt(search.layer, at);
         if (surface.key != search.key) {
             noteMiss(search.layer, search.key, at, doubt);
             return;

@@ -42,7 +42,9 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
         for (int x = 0; x < int(kGroupSize); ++x) {
             uvec2 surface = fetchSurface(first + ivec2(min(x, size.x - 1), y));
             keys[x] = keyOf(surface);
-            hasOne = hasOne && otherSamplesOf(surface) == 0u;
+            if (otherSamplesOf(surface) == 0u) continue;
+            hasOne = false;
+            plane.keys = ~0u; // of which entity the others are is not looked up
         }
         for (int x = 0; x < int(kGroupSize); ++x) {
             uint key = keys[x];

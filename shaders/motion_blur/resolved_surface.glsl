@@ -51,7 +51,7 @@ void main() {
     vec4 motionDepth = textureLod(uMotionDepth, uvOf(pixel), 0.0f);
     uint others = kHasEdges ? uint(motionDepth.w) : 0u;
     uint corners = 0u;
-    if (others == 0u && (!kSkipsStill || motionDepth.xy != vec2(0.0f)))
+    if (others == 0u && (kHasEdges || !kSkipsStill || motionDepth.xy != vec2(0.0f)))
         corners = findInnerCorners(pixel, key);
     imageStore(
         uSurface, pixel,

@@ -3,11 +3,13 @@
 #ifndef SHUTTER_FRAGMENT_POINT_GLSL
 #define SHUTTER_FRAGMENT_POINT_GLSL
 
-layout(location = 0) in vec3 inEyePosition;
-layout(location = 1) in vec3 inNormal;
-layout(location = 2) in vec4 inTangent;
-layout(location = 3) in vec4 inUv;
-layout(location = 4) in vec4 inColor;
+// At the centroid of what the triangle covers of the pixel: with several samples per pixel, the centre
+// may lie outside of it.
+layout(location = 0) centroid in vec3 inEyePosition;
+layout(location = 1) centroid in vec3 inNormal;
+layout(location = 2) centroid in vec4 inTangent;
+layout(location = 3) centroid in vec4 inUv;
+layout(location = 4) centroid in vec4 inColor;
 
 /// The triangle's normal, on the front side as the winding defines it, from derivatives.
 vec3 geometricNormal() {

@@ -17,8 +17,8 @@ layout(constant_id = 1) const uint kBlend = 0u;
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
-layout(location = 5) in vec3 inClipOpen;
-layout(location = 6) in vec3 inClipClose;
+layout(location = 5) centroid in vec3 inClipOpen;
+layout(location = 6) centroid in vec3 inClipClose;
 
 layout(location = 0) out vec4 outColor;
 layout(location = 1) out vec4 outNormal;

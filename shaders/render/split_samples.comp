@@ -45,6 +45,26 @@ uint findMost(vec3 motionDepths[kSampleCount], uint among) {
     return most;
 }
 
+/// A sample of the entity that covers most of the samples; of two that cover as many, the nearer.
+/// \param among a bit for each sample that counts, at least one
+int findEntity(ivec2 pixel, vec3 motionDepths[kSampleCount], uint among) {
+    int found = findLSB(among);
+    uint most = 0u;
+    for (uint i = 0u; i < kSampleCount; ++i) {
+        if ((among >> i & 1u) == 0u) continue;
+        uint id = texelFetch(uEntityIdSamples, pixel, int(i)).x;
+        uint count = 0u;
+        for (uint j = 0u; j < kSampleCount; ++j)
+            if ((among >> j & 1u) != 0u && texelFetch(uEntityIdSamples, pixel, int(j)).x == id)
+                ++count;
+        bool isNearer = count == most && motionDepths[i].z < motionDepths[found].z;
+        if (count <= most && !isNearer) continue;
+        most = count;
+        found = int(i);
+    }
+    return found;
+}
+
 /// \param among a bit for each sample that counts, at least one
 vec4 meanColor(ivec2 pixel, uint among) {
     vec4 sum = vec4(0.0f);
@@ -63,11 +83,11 @@ void main() {
         motionDepths[i] = texelFetch(uMotionDepthSamples, pixel, int(i)).xyz;
         isWhole = isWhole && motionDepths[i] == motionDepths[0];
     }
-    uint own = isWhole ? 1u : findMost(motionDepths, kAll);
-    uint others = isWhole ? 0u : kAll & ~own;
+    uint own = isWhole ? kAll : findMost(motionDepths, kAll);
+    uint others = params.keepsEdges != 0u ? kAll & ~own : 0u;
     if (others != 0u) {
         uint other = findMost(motionDepths, others);
-        int first = findLSB(other);
+        int first = findEntity(pixel, motionDepths, other);
         vec4 color = meanColor(pixel, other);
         imageStore(
             uEdgeSurface, pixel,
@@ -78,9 +98,11 @@ void main() {
             )
         );
     }
-    bool isMean = !isWhole && params.keepsEdges == 0u;
-    int first = findLSB(own);
-    imageStore(uColor, pixel, meanColor(pixel, isMean ? kAll : own));
+    // Blended surfaces have colours alone.
+    bool isOne = isWhole && params.hasBlended == 0u;
+    int first = isWhole ? 0 : findEntity(pixel, motionDepths, own);
+    uint shown = kAll & ~others;
+    imageStore(uColor, pixel, meanColor(pixel, isOne ? 1u : shown));
     imageStore(uNormal, pixel, texelFetch(uNormalSamples, pixel, first));
     imageStore(uMotionDepth, pixel, vec4(motionDepths[first], float(others)));
     imageStore(uEntityId, pixel, texelFetch(uEntityIdSamples, pixel, first));

@@ -37,8 +37,8 @@ SHUTTER_INLINE uint nearestSample(vec2 at) {
 
 struct SplitParams {
     uvec2 sizePx;
-    uint keepsEdges; // 1: at edges of what moves a pixel has its own surface's colour; 0: the mean
-    uint padding0;
+    uint keepsEdges; // 1: at an edge a pixel has its own surface's colour; 0: the mean
+    uint hasBlended; // 1: blended surfaces were drawn, which are in colours alone
 };
 
 SHUTTER_SHADER_END

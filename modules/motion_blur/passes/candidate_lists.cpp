@@ -25,15 +25,15 @@ const char* namePass(LayerIndex layer) {
     return "list candidates, second raster";
 }
 
-gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex layer) {
+gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex layer, bool hasEdges) {
     gpu::ComputePipelineDesc desc = describePass(
         namePass(layer),
         motion_blur_resolved_candidates_comp,
-        {kSampled, kBuffer, kBuffer, kBuffer, kBuffer}
+        {kSampled, kBuffer, kBuffer, kBuffer, kBuffer, kSampled}
     );
     // A software device runs a group's threads in turn, and each waits at the barriers.
     const uint32_t rows = isSoftware(device) ? 2u : shader::kGroupSize;
-    desc.specialization = {static_cast<uint32_t>(layer), rows, rows};
+    desc.specialization = {static_cast<uint32_t>(layer), rows, rows, hasEdges ? 1u : 0u};
     return desc;
 }
 
@@ -42,9 +42,10 @@ gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex laye
 CandidateLists::CandidateLists(gpu::Device& device)
     : mSampler(device.nearestSampler()),
       mPipelines{
-          gpu::LazyPipeline(device, describeList(device, LayerIndex::Raster)),
-          gpu::LazyPipeline(device, describeList(device, LayerIndex::Last)),
-          gpu::LazyPipeline(device, describeList(device, LayerIndex::Second))} {}
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Raster, false)),
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Last, false)),
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Second, false))},
+      mWithEdges(device, describeList(device, LayerIndex::Raster, true)) {}
 
 graph::BufferHandle
 CandidateLists::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
@@ -79,6 +80,8 @@ CandidateOutputs CandidateLists::add(
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, CandidateOutputs& data) {
             builder.read(inputs.surface, Access::SampledCompute);
+            if (inputs.edgeSurface.isValid())
+                builder.read(inputs.edgeSurface, Access::SampledCompute);
             data.candidates = builder.write(inputs.empty, Access::StorageWrite);
             if (inputs.deforming.tiles.isValid())
                 data.deforming = {
@@ -98,14 +101,17 @@ CandidateOutputs CandidateLists::add(
                                                  ? data.deforming
                                                  : DeformingTiles{data.candidates, data.candidates};
             const bool mayCrowd = data.crowds.tiles.isValid();
+            const bool hasEdges = inputs.edgeSurface.isValid();
             gpu::BindingList bindings;
             bindings.sampled(resources.view(inputs.surface), mSampler)
                 .buffer(resources.buffer(deforming.arguments))
                 .buffer(resources.buffer(data.candidates))
                 .buffer(resources.buffer(mayCrowd ? data.crowds.arguments : data.candidates))
-                .buffer(resources.buffer(deforming.tiles));
+                .buffer(resources.buffer(deforming.tiles))
+                .sampled(resources.view(hasEdges ? inputs.edgeSurface : inputs.surface), mSampler);
             const PassParams own = withCrowds(params, resources, data.crowds.tiles);
-            const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
+            const gpu::LazyPipeline& pipeline =
+                hasEdges ? mWithEdges : mPipelines.at(static_cast<size_t>(layer));
             context.frame.bind(pipeline.get(), bindings, &own, sizeof(own));
             vkCmdDispatch(context.commands, tiles.x, tiles.y, 1);
         }

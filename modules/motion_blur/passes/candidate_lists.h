@@ -23,9 +23,11 @@ struct DeformingTiles {
 /// Handles of a frame.
 struct CandidateInputs {
     graph::ImageHandle surface; ///< of the layer
-    graph::BufferHandle empty;  ///< of CandidateLists::create(), cleared
-    DeformingTiles deforming;   ///< of createDeforming(), cleared; invalid: nothing deforms
-    CrowdBuffers crowds;        ///< of all layers
+    /// MotionBlurInputs::edgeSurface, of this frame's raster; invalid: pixels show one surface.
+    graph::ImageHandle edgeSurface;
+    graph::BufferHandle empty; ///< of CandidateLists::create(), cleared
+    DeformingTiles deforming;  ///< of createDeforming(), cleared; invalid: nothing deforms
+    CrowdBuffers crowds;       ///< of all layers
 };
 
 struct CandidateOutputs {
@@ -61,6 +63,7 @@ class CandidateLists {
   private:
     VkSampler mSampler;
     std::array<gpu::LazyPipeline, 3> mPipelines; ///< by layer
+    gpu::LazyPipeline mWithEdges;                ///< of this frame's raster
 };
 
 } // namespace shutter::motion_blur

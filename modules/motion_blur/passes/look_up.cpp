@@ -282,7 +282,9 @@ LookUpOutputs LookUp::add(
             return {};
         const auto at = static_cast<size_t>(index);
         const DeformingTiles& deforming = starts.deforming.at(at);
-        CandidateInputs given{layer.surface, clears.get(starts.candidates.at(at)), {}, crowds};
+        CandidateInputs given{layer.surface, {}, clears.get(starts.candidates.at(at)), {}, crowds};
+        if (index == LayerIndex::Raster)
+            given.edgeSurface = inputs.edgeSurface;
         if (deforming.tiles.isValid())
             given.deforming = {clears.get(deforming.tiles), clears.get(deforming.arguments)};
         CandidateOutputs listed = mCandidates.add(graph, given, index, params);

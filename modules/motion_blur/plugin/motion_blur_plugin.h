@@ -53,8 +53,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
-    /// For methods that blur the raster.
+    /// For methods that look instants up.
     [[nodiscard]] bool readsEdges() const override;
+    /// For methods that blur the raster.
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
 
     /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are
