@@ -23,6 +23,7 @@ VARIANTS = (
     ("vase", "--method", "resolved", "--aov", "all", "--set", "secondRaster=true"),
     ("courtyard", "--time", "0.5", "--method", "resolved", "--shadows", "blurred", "--aa", "taa",
      "--bloom", "0.1"),
+    ("courtyard", "--camera", "pan", "--time", "0.5", "--method", "resolved", "--aa", "taa"),
     ("gallery", "--time", "0.5", "--method", "hybrid", "--shadows", "sharp", "--max-blur", "3"),
     ("gallery", "--time", "0.5", "--method", "resolved"),
     ("gallery", "--time", "0.5", "--method", "resolved", "--set", "secondRaster=true"),
@@ -38,8 +39,8 @@ HOT = (
     "jimenez2014", "list candidates", "list candidates, last frame",
     "list candidates, second raster", "list crowds", "mcguire2012", "pack surface",
     "particle composite", "particles", "ray mask", "ray reveal", "resolve", "resolve uniform",
-    "rosado2007", "shape ways", "sort candidates", "stochastic rays", "taa", "tile max",
-    "trace samples",
+    "rosado2007", "shape ways", "sort candidates", "split samples", "stochastic rays", "taa",
+    "tile max", "trace samples",
 )
 # Statistics of the driver, by the names that tables and pins use. Waves are those of 32 lanes that a
 # SIMD can hold, also where the shader has 64.

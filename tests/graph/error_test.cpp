@@ -77,6 +77,27 @@ TEST(GraphError, AttachmentsOfDifferentSize) {
     );
 }
 
+TEST(GraphError, AttachmentsOfDifferentSampleCounts) {
+    Graph graph;
+    addPass(graph, "geometry", PassKind::Raster, [&](PassBuilder& builder) {
+        (void)builder.colorTarget(makeImage(graph, "color", 16), ClearColor::uints(0));
+        (void)builder.depthTarget(graph.createImage("depth", {16, 16, kDepth, 4}), 0.0f);
+    });
+    EXPECT_EQ(
+        errorOf(graph),
+        "pass 'geometry' draws into 'color' with 1 samples per pixel and 'depth' with 4"
+    );
+}
+
+TEST(GraphError, AnImageOfSeveralSamplesThatIsStoredTo) {
+    Graph graph;
+    const auto image = graph.createImage("color", {16, 16, VK_FORMAT_R16G16B16A16_SFLOAT, 4});
+    graph.markOutput(store(graph, "blur", image));
+    EXPECT_EQ(
+        errorOf(graph), "pass 'blur' uses 'color' as storage write, but it has 4 samples per pixel"
+    );
+}
+
 TEST(GraphError, ARasterPassWithoutAttachments) {
     Graph graph;
     addPass(graph, "geometry", PassKind::Raster, [](PassBuilder&) {});

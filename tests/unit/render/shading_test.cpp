@@ -2,6 +2,7 @@
 // Light on surfaces: reflection, sampling, textures' detail.
 #include "shaders/common/sampling.glsl"
 #include "shaders/render/brdf.glsl"
+#include "shaders/render/split_samples_shared.h"
 #include "shaders/render/texture_lod.glsl"
 
 #include <gtest/gtest.h>
@@ -360,6 +361,16 @@ TEST(TextureLod, TheBiasIsAdded) {
     constexpr float kTexels = 256.0f * 256.0f;
     EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, -1.5f), 1.5f, 1e-5f);
     EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, 0.5f), 3.5f, 1e-5f);
+}
+
+TEST(SamplesOfAPixel, ThePlaceOfEachIsNearestToItself) {
+    vec2 sum(0.0f);
+    for (uint32_t i = 0; i < kSampleCount; ++i) {
+        EXPECT_EQ(nearestSample(placeOfSample(i)), i);
+        sum += placeOfSample(i);
+    }
+    EXPECT_EQ(sum, 0.5f * float(kSampleCount) * vec2(1.0f));
+    EXPECT_EQ(nearestSample(vec2(0.5f)), 0u);
 }
 
 } // namespace
