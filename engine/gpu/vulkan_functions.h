@@ -95,6 +95,7 @@
     X(GetInstanceProcAddr)                                                                         \
     X(GetPhysicalDeviceFeatures2)                                                                  \
     X(GetPhysicalDeviceFormatProperties)                                                           \
+    X(GetPhysicalDeviceImageFormatProperties)                                                      \
     X(GetPhysicalDeviceMemoryProperties)                                                           \
     X(GetPhysicalDeviceProperties)                                                                 \
     X(GetPhysicalDeviceProperties2)                                                                \
