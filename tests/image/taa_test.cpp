@@ -253,21 +253,6 @@ TEST_F(TaaEdge, WhatMovesWithTheCameraHasSmoothEdges) {
     }
 }
 
-TEST_F(TaaEdge, AFloorUnderTheCameraStaysFinite) {
-    slideCamera(2.0);
-    mScene.add(
-        test::makeQuad(40.0, 40.0, mScene.addColor(math::vec3(0.9f))),
-        {.position = {0, -1e-3, 0},
-         .rotation = glm::angleAxis(glm::radians(-90.0), math::dvec3(1, 0, 0))}
-    );
-    for (const std::string_view method : {"gather", "resolved"}) {
-        mMethod = method;
-        const image::Image picture = draw(AntiAliasing::Taa);
-        for (const float value : picture.pixels)
-            ASSERT_TRUE(std::isfinite(value)) << method;
-    }
-}
-
 TEST_F(TaaLaw, BetweenTurningSpokesWhatIsStaticKeepsItsMean) {
     addTiles({.position = {0, 0, -5}});
     const auto red = mScene.addColor({0.6f, 0.1f, 0.05f});
