@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/bounds.h"
 
+#include <cmath>
+
 namespace shutter::math {
 
 void Bounds::add(const dvec3& point) {
@@ -28,6 +30,10 @@ Bounds transformBounds(const dmat4& matrix, const Bounds& bounds) {
         result.add(dvec3(matrix * dvec4(point, 1.0)));
     }
     return result;
+}
+
+bool isWithin(const dvec3& value, double limit) {
+    return std::abs(value.x) <= limit && std::abs(value.y) <= limit && std::abs(value.z) <= limit;
 }
 
 } // namespace shutter::math

@@ -32,4 +32,7 @@ struct Bounds {
 /// empty stays empty. \param matrix affine
 [[nodiscard]] Bounds transformBounds(const dmat4& matrix, const Bounds& bounds);
 
+/// Whether no component's magnitude exceeds `limit`; false if one is NaN.
+[[nodiscard]] bool isWithin(const dvec3& value, double limit);
+
 } // namespace shutter::math

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/particle_emitter.h"
 
+#include "engine/math/bounds.h"
+
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -14,6 +16,7 @@ namespace shutter::scene {
 namespace {
 
 using math::dvec3;
+using math::isWithin;
 
 constexpr double kMaxSeconds = 1.0e9;
 constexpr double kMaxRate = 1.0e6;
@@ -26,10 +29,6 @@ constexpr float kMaxBrightness = 1000.0f;
 /// Written so that NaN is not within.
 bool isWithin(double value, double low, double high) {
     return value >= low && value <= high;
-}
-
-bool isWithin(const dvec3& value, double limit) {
-    return std::abs(value.x) <= limit && std::abs(value.y) <= limit && std::abs(value.z) <= limit;
 }
 
 core::Status validateSpans(const std::vector<EmissionSpan>& spans) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/vertex_waves.h"
 
+#include "engine/math/bounds.h"
 #include "engine/math/transform.h"
 
 #include <algorithm>
@@ -14,25 +15,21 @@ namespace {
 using math::dmat3;
 using math::dvec3;
 using math::dvec4;
+using math::isWithin;
 
 /// Where single precision, in which vertices are displaced, has no fraction of a radian left.
-constexpr double kMaxRate = 1.0e6;
+constexpr double kMaxWaveRate = 1.0e6;
 constexpr double kMaxMetres = 1.0e6;
 constexpr double kMaxExponent = 16.0;
-
-/// Written so that NaN is not within.
-bool isWithin(const dvec3& value, double limit) {
-    return std::abs(value.x) <= limit && std::abs(value.y) <= limit && std::abs(value.z) <= limit;
-}
 
 core::Status validateWave(const VertexWave& wave, size_t index) {
     if (!isWithin(wave.displacement, kMaxMetres))
         return core::makeError("waves[{}].displacement is not within 1e6 metres", index);
-    if (!isWithin(wave.waveVector, kMaxRate))
+    if (!isWithin(wave.waveVector, kMaxWaveRate))
         return core::makeError("waves[{}].waveVector is not within 1e6 radians per metre", index);
-    if (!(wave.hertz >= 0.0 && wave.hertz <= kMaxRate))
+    if (!(wave.hertz >= 0.0 && wave.hertz <= kMaxWaveRate))
         return core::makeError("waves[{}].hertz is {}, not in [0, 1e6]", index, wave.hertz);
-    if (!(std::abs(wave.phase) <= kMaxRate))
+    if (!(std::abs(wave.phase) <= kMaxWaveRate))
         return core::makeError("waves[{}].phase is {}, not in [-1e6, 1e6]", index, wave.phase);
     return {};
 }
