@@ -130,19 +130,18 @@ void StaticLayer::extract(const render::ExtractContext& context) {
 StaticLayer::Frame StaticLayer::turn(const render::PostContext& context) {
     SHUTTER_CHECK(isGathering(), "nothing is static before a camera that moves");
     Frame frame = mFrame;
-    if (mHasLast)
-        frame.last = &mImages.at(mNewest);
+    frame.hasLast = mHasLast;
     frame.rows = writeRows(mBuffers.at(context.slot));
-    mNewest = 1 - mNewest;
-    Images& kept = mImages.at(mNewest);
     const auto make = [&](gpu::Image& image, const char* name, VkFormat format) {
         const gpu::ImageDesc desc = describeImage(context.facts, format);
-        if (!image.handle() || !(image.desc() == desc))
-            image = gpu::Image(mDevice, name, desc);
+        if (image.handle() && image.desc() == desc)
+            return;
+        image = gpu::Image(mDevice, name, desc);
+        frame.hasLast = false;
     };
-    make(kept.color, "static colour", VK_FORMAT_R16G16B16A16_SFLOAT);
-    make(kept.row, "static row", VK_FORMAT_R32_UINT);
-    frame.kept = &kept;
+    make(mImages.color, "static colour", VK_FORMAT_R32G32B32A32_SINT);
+    make(mImages.row, "static row", VK_FORMAT_R32_UINT);
+    frame.images = &mImages;
     return frame;
 }
 

@@ -19,14 +19,14 @@ namespace shutter::taa {
 class StaticLayer {
   public:
     struct Images {
-        gpu::Image color; ///< rgb linear, a count of frames
-        gpu::Image row;   ///< shader::kDoubted and a row of the frame's entity table
+        gpu::Image color; ///< RGBA32_SINT: shader::Kept
+        gpu::Image row;   ///< R32_UINT: shader::kDoubted and a row of the frame's entity table
     };
 
     /// A frame's own share of it.
     struct Frame {
-        const Images* last = nullptr; ///< null: nothing is known from before
-        const Images* kept = nullptr; ///< for this frame's
+        const Images* images = nullptr;
+        bool hasLast = false; ///< `images` hold what is known from before
         shader::StaticRows rows{};
         /// What is static may look different than in the last frame: a light, an entity that casts
         /// shadows or what is blended over it may be another.
@@ -69,8 +69,7 @@ class StaticLayer {
     [[nodiscard]] shader::StaticRows writeRows(gpu::Buffer& buffer) const;
 
     gpu::Device& mDevice;
-    std::array<Images, 2> mImages; ///< in turns: one is read while the other is written
-    uint32_t mNewest = 0;          ///< of mImages
+    Images mImages;
     std::optional<Record> mRecord; ///< of the frame that was extracted last
     Frame mFrame;                  ///< of it, without images and rows
     bool mHasLast = false;

@@ -17,7 +17,6 @@ namespace {
 using graph::Access;
 
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 /// Textures of one sample per pixel are this much sharper, in levels of detail: less is nearer to
 /// the mean over the pixel also where only motion blur smooths them.
 constexpr float kLodBias = -1.0f;
@@ -31,8 +30,6 @@ gpu::ComputePipelineDesc describePipeline() {
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
@@ -43,28 +40,10 @@ gpu::ComputePipelineDesc describePipeline() {
 struct Data {
     graph::ImageHandle color;
     graph::ImageHandle entityId;
-    graph::ImageHandle last; ///< invalid: there is none
-    graph::ImageHandle lastRow;
     graph::ImageHandle picture;
     graph::ImageHandle kept;
     graph::ImageHandle keptRow;
 };
-
-graph::ImageHandle readLast(
-    graph::PassBuilder& builder, graph::Graph& graph, const char* name, const gpu::Image& image
-) {
-    return builder.read(
-        graph.importImage(name, image, kKeptLayout, kKeptLayout), Access::SampledCompute
-    );
-}
-
-graph::ImageHandle writeKept(
-    graph::PassBuilder& builder, graph::Graph& graph, const char* name, const gpu::Image& image
-) {
-    return builder.write(
-        graph.importImage(name, image, VK_IMAGE_LAYOUT_UNDEFINED, kKeptLayout), Access::StorageWrite
-    );
-}
 
 shader::TaaParams makeParams(const render::PostContext& context, const StaticLayer::Frame& frame) {
     shader::TaaParams params{};
@@ -72,8 +51,7 @@ shader::TaaParams makeParams(const render::PostContext& context, const StaticLay
     params.jitterPx = math::vec2(context.view.jitterPx);
     params.frame = gpu::splitAddress(context.frameConstants);
     params.rows = frame.rows;
-    params.leastShare = 1.0f / float(kMostFrames);
-    params.hasLast = frame.last ? 1 : 0;
+    params.hasLast = frame.hasLast ? 1 : 0;
     params.mayDiffer = frame.mayDiffer ? 1 : 0;
     return params;
 }
@@ -130,25 +108,25 @@ void Taa::declare(render::PostContext& context) {
         [&](graph::PassBuilder& builder, Data& data) {
             data.color = builder.read(context.color, Access::SampledCompute);
             data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
-            if (frame.last) {
-                data.last = readLast(builder, graph, "last static colour", frame.last->color);
-                data.lastRow = readLast(builder, graph, "last static row", frame.last->row);
-            }
             data.picture = builder.write(
                 graph.createImage("picture", {params.sizePx.x, params.sizePx.y, kFormat}),
                 Access::StorageWrite
             );
-            data.kept = writeKept(builder, graph, "static colour", frame.kept->color);
-            data.keptRow = writeKept(builder, graph, "static row", frame.kept->row);
+            const auto keep = [&](const char* name, const gpu::Image& image) {
+                const VkImageLayout before =
+                    frame.hasLast ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_UNDEFINED;
+                return builder.write(
+                    graph.importImage(name, image, before, VK_IMAGE_LAYOUT_GENERAL),
+                    Access::StorageWrite
+                );
+            };
+            data.kept = keep("static colour", frame.images->color);
+            data.keptRow = keep("static row", frame.images->row);
         },
         [this, params](const Data& data, graph::PassContext& recording) {
             const graph::PassResources& resources = recording.resources;
-            // A binding that the shader does not use is something all the same.
-            const bool hasLast = data.last.isValid();
-            const graph::ImageHandle last = hasLast ? data.last : data.color;
-            const graph::ImageHandle lastRow = hasLast ? data.lastRow : data.entityId;
             gpu::BindingList bindings;
-            for (const graph::ImageHandle image : {data.color, data.entityId, last, lastRow})
+            for (const graph::ImageHandle image : {data.color, data.entityId})
                 bindings.sampled(resources.view(image), mDevice.nearestSampler());
             for (const graph::ImageHandle image : {data.picture, data.kept, data.keptRow})
                 bindings.storage(resources.image(image));

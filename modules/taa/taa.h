@@ -14,12 +14,7 @@
 
 namespace shutter::taa {
 
-/// Places in the pixel, one frame behind the other; then they begin anew. A picture holds about as
-/// many samples a pixel where it can.
-inline constexpr uint32_t kPlaceCount = 16;
-/// Most frames that a picture is the mean of: with two rounds of the places, those of the newest
-/// frames weigh little more than the others. Half floats would not keep smaller shares.
-inline constexpr uint32_t kMostFrames = 2 * kPlaceCount;
+using shader::kPlaceCount;
 /// Frames before a picture that settle what it shows, where none was drawn.
 inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 
@@ -34,18 +29,18 @@ inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 [[nodiscard]] extract::ViewRequest
 makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 
-/// Where neither the camera nor the entity moves, a pixel is the mean of the frames in which it was
-/// seen: the plain mean up to kMostFrames, then each new frame has an equal share. The mean stays
-/// while something moves in front. In frames in which what is static may look different (another
-/// light, an entity that comes, goes, starts or stops, particles, glass that moves, tiles that a
-/// moving shadow may reach) it is clipped to the variance of the neighbourhood in YCoCg (Salvi
-/// 2016, "An Excursion in Temporal Supersampling"), mixed as Karis 2014 ("High Quality Temporal
-/// Supersampling"). What moves has one sample at the pixel's centre and no history: motion blur
-/// smooths it, and reprojected history is farther from the mean over the pixel than none
-/// (docs/anti_aliasing.md). Runs on the linear picture before the motion blur. The view must be one
-/// of makeJittered(); afterwards its colour has no jitter (ExtractContext::colorJitterPx), other
-/// images of the raster keep theirs where the surface is static. Keeps 24 bytes per pixel: colour
-/// and row, of this frame and the last one.
+/// Where neither the camera nor the entity moves, a pixel is the mean of the first kPlaceCount
+/// frames in which it was seen; then it stays as it is. Both also while something moves in front,
+/// and whatever the frames' order: a sequence that resumes has the same bits. In frames in which
+/// what is static may look different (another light, an entity that comes, goes, starts or stops,
+/// particles, glass that moves, tiles that a moving shadow may reach) it is clipped to the variance
+/// of the neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as
+/// Karis 2014 ("High Quality Temporal Supersampling"). What moves has one sample at the pixel's
+/// centre and no history: motion blur smooths it, and reprojected history is farther from the mean
+/// over the pixel than none (docs/anti_aliasing.md). Runs on the linear picture before the motion
+/// blur. The view must be one of makeJittered(); afterwards its colour has no jitter
+/// (ExtractContext::colorJitterPx), other images of the raster keep theirs where the surface is
+/// static. Keeps 20 bytes per pixel: sum, count and row.
 class Taa : public render::PostEffect {
   public:
     explicit Taa(gpu::Device& device);

@@ -22,11 +22,9 @@ layout(push_constant, scalar) uniform Push {
 
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform usampler2D uEntityId;
-layout(binding = 2) uniform sampler2D uLast;     // rgb colour, a count; linear
-layout(binding = 3) uniform usampler2D uLastRow;
-layout(binding = 4, rgba16f) uniform writeonly image2D uPicture;
-layout(binding = 5, rgba16f) uniform writeonly image2D uKept;
-layout(binding = 6, r32ui) uniform writeonly uimage2D uKeptRow;
+layout(binding = 2, rgba16f) uniform writeonly image2D uPicture;
+layout(binding = 3, rgba32i) uniform iimage2D uKept; // Kept: sum, bits of count
+layout(binding = 4, r32ui) uniform uimage2D uKeptRow;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RowTable {
     uint values[];
@@ -80,17 +78,21 @@ struct Before {
     Kept kept;      // count 0: nothing that is still there
     uint row;       // of this frame, or kNoRow
     bool isDoubted;
+    uint stored; // what uKeptRow holds
 };
 
 Before fetchBefore(ivec2 pixel) {
-    Before before = Before(Kept(vec3(0.0f), 0.0f), kNoRow, false);
+    Before before = Before(Kept(ivec3(0), 0.0f), kNoRow, false, kNoRow);
     if (params.hasLast == 0u) return before;
-    uint read = textureLod(uLastRow, uvOf(pixel), 0.0f).r;
-    if (read == kNoRow) return before;
-    uint row = RowTable(params.rows.nowRows).values[min(read & ~kDoubted, params.rows.lastCount)];
-    if (row == kNoRow) return before;
-    vec4 texel = textureLod(uLast, uvOf(pixel), 0.0f);
-    return Before(Kept(texel.rgb, texel.a), row, (read & kDoubted) != 0u);
+    before.stored = imageLoad(uKeptRow, pixel).r;
+    if (before.stored == kNoRow) return before;
+    uint last = min(before.stored & ~kDoubted, params.rows.lastCount);
+    before.row = RowTable(params.rows.nowRows).values[last];
+    if (before.row == kNoRow) return before;
+    ivec4 texel = imageLoad(uKept, pixel);
+    before.kept = Kept(texel.rgb, intBitsToFloat(texel.a));
+    before.isDoubted = (before.stored & kDoubted) != 0u;
+    return before;
 }
 
 void main() {
@@ -108,18 +110,23 @@ void main() {
     if (state == kMovingRow) {
         row = before.row;
     } else {
-        bool isNew = state == kNewRow || before.row == kNoRow;
+        if (state == kNewRow || before.row == kNoRow) kept = Kept(ivec3(0), 0.0f);
+        bool settles = kept.count < float(kPlaceCount - 1u);
         Neighbourhood around = kNowhere;
-        if (isNew || isDoubted) around = lookAround(pixel);
-        // What nothing is known of is seen through all samples around: one alone would flicker.
-        kept = isNew ? Kept(storableColor(expand(rgbFromYcocg(around.middle))), 1.0f)
-                     : mixWithLast(color, before.kept, params.leastShare, isDoubted, around.moments);
-        color = kept.color;
+        if (settles || isDoubted) around = lookAround(pixel);
+        kept = addFrame(compress(storableColor(color)), kept, isDoubted, around.moments);
+        vec3 mean = meanOf(kept);
+        // Few samples are seen along with those around them: one alone would flicker.
+        if (settles)
+            mean = max(mix(mean, rgbFromYcocg(around.middle), 1.0f / kept.count), vec3(0.0f));
+        color = storableColor(expand(mean));
         isDoubted = mayDiffer;
     }
     imageStore(uPicture, pixel, vec4(color, current.a));
-    imageStore(uKept, pixel, vec4(kept.color, kept.count));
-    imageStore(
-        uKeptRow, pixel, uvec4(row == kNoRow ? kNoRow : row | (isDoubted ? kDoubted : 0u), 0u, 0u, 0u)
-    );
+    // A settled picture writes nothing.
+    if (kept != before.kept)
+        imageStore(uKept, pixel, ivec4(kept.sum, floatBitsToInt(kept.count)));
+    uint keptRow = row == kNoRow ? kNoRow : row | (isDoubted ? kDoubted : 0u);
+    if (params.hasLast == 0u || keptRow != before.stored)
+        imageStore(uKeptRow, pixel, uvec4(keptRow, 0u, 0u, 0u));
 }

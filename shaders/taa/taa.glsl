@@ -6,6 +6,7 @@
 #define SHUTTER_TAA_GLSL
 
 #include "common/numeric.glsl"
+#include "taa/taa_shared.h"
 
 SHUTTER_SHADER_BEGIN
 
@@ -84,37 +85,48 @@ SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
     return vec3(0.5f * after * after, 0.75f - offset * offset, 0.5f * before * before);
 }
 
-/// What a pixel keeps for the frames after.
+/// Steps of 1 in Kept::sum: finer than a half float's where a display can tell colours apart.
+SHUTTER_CONST float kSteps = 16777216.0f;
+
+/// What a pixel keeps for the frames after. Whole numbers, because their sum is the same in whatever
+/// order the frames came.
 struct Kept {
-    vec3 color;  // linear
-    float count; // of frames it is the mean of
+    ivec3 sum;   // of compressed colours, in steps of 1 / kSteps
+    float count; // of frames in the sum, up to below kPlaceCount + 1; 0: none
 };
 
-/// \param current this frame's colour, linear and storable
-/// \param last what was kept; NaN, infinity and a count below 1 count as nothing
-/// \param mayDiffer the surface may look different than before: `last` must lie among the moments
+/// \param compressed [0, 2]
+SHUTTER_INLINE ivec3 toSteps(vec3 compressed) {
+    return ivec3(compressed * kSteps + 0.5f);
+}
+
+/// Compressed. \param kept of one frame or more
+SHUTTER_INLINE vec3 meanOf(Kept kept) {
+    return vec3(kept.sum) / (kept.count * kSteps);
+}
+
+/// A frame more, unless the pixel has had one for each place and is what it was: its mean stays,
+/// so that it does not flicker.
+/// \param current this frame's colour, compressed
+/// \param mayDiffer the surface may look different than before: the mean must lie among the moments
 /// \param moments of the neighbourhood, compressed YCoCg
-SHUTTER_INLINE Kept
-mixWithLast(vec3 current, Kept last, float leastShare, bool mayDiffer, ColorMoments moments) {
-    bool isUsable = isFinite(last.color.x) && isFinite(last.color.y) && isFinite(last.color.z) &&
-                    isFinite(last.count) && last.count >= 1.0f;
-    Kept kept;
-    kept.color = current;
-    kept.count = 1.0f;
-    if (!isUsable)
-        return kept;
-    vec3 now = ycocgFromRgb(compress(current));
-    vec3 before = ycocgFromRgb(compress(max(last.color, vec3(0.0f))));
-    float trusted = last.count;
-    if (mayDiffer) {
-        Clipped clipped = clipToVariance(before, moments);
-        before = clipped.color;
+SHUTTER_INLINE Kept addFrame(vec3 current, Kept last, bool mayDiffer, ColorMoments moments) {
+    Kept kept = last;
+    if (last.count < 1.0f) {
+        kept.sum = toSteps(current);
+        kept.count = 1.0f;
+    } else if (mayDiffer) {
+        Clipped clipped = clipToVariance(ycocgFromRgb(meanOf(last)), moments);
+        vec3 mean = min(max(rgbFromYcocg(clipped.color), vec3(0.0f)), vec3(2.0f));
         // What had to be clipped is out of date, at least in part: fewer frames vouch for it.
-        trusted = max(1.0f, trusted / max(clipped.beyond * clipped.beyond, 1.0f));
+        float trusted = max(1.0f, last.count / max(clipped.beyond * clipped.beyond, 1.0f));
+        trusted = min(trusted, float(kPlaceCount - 1u));
+        kept.sum = toSteps(mean * trusted + current);
+        kept.count = trusted + 1.0f;
+    } else if (last.count < float(kPlaceCount)) {
+        kept.sum = last.sum + toSteps(current);
+        kept.count = last.count + 1.0f;
     }
-    float share = max(1.0f / (trusted + 1.0f), leastShare);
-    kept.color = storableColor(expand(rgbFromYcocg(mix(before, now, share))));
-    kept.count = min(trusted + 1.0f, 1.0f / leastShare);
     return kept;
 }
 

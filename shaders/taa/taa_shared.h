@@ -6,6 +6,9 @@
 
 SHUTTER_SHADER_BEGIN
 
+/// Places in the pixel, one per frame in turn: as many as a settled picture has samples.
+SHUTTER_CONST uint kPlaceCount = 16u;
+
 // States of a row of the entity table.
 SHUTTER_CONST uint kMovingRow = 0u; // the entity moves, or has moved since the last frame
 SHUTTER_CONST uint kStaticRow = 1u;
@@ -29,16 +32,15 @@ struct TaaParams {
     vec2 jitterPx; // of this frame's static samples: right and down, in its pixels
     uvec2 frame;   // address of FrameConstants
     StaticRows rows;
-    float leastShare; // of this frame in what is kept, (0, 1]
-    uint hasLast;     // 1: colours were kept
-    uint mayDiffer;   // 1: what is static may look different than in the last frame
+    uint hasLast;   // 1: colours were kept
+    uint mayDiffer; // 1: what is static may look different than in the last frame
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::StaticRows) == 24);
-static_assert(sizeof(shutter::shader::TaaParams) == 60);
+static_assert(sizeof(shutter::shader::TaaParams) == 56);
 #endif
 
 #endif

@@ -129,6 +129,32 @@ TEST_F(TaaLaw, AStaticPictureIsTheMeanOverThePixel) {
     EXPECT_LT(measureError(AntiAliasing::Taa), 0.25 * measureError(AntiAliasing::None));
 }
 
+TEST_F(TaaLaw, AStaticPictureStaysAsItIsOnceItIsSettledAndHasTheSameBitsAfterAResume) {
+    addTiles({.position = {0, 0, -5}});
+    const test::Shot shot{.method = mMethod, .shadows = mShadows};
+    test::Frames frames(device(), mScene);
+    const auto drawNext = [&](test::Frames& from, int frame) {
+        test::Shot at = shot;
+        at.frameSeconds = 1.0 / 24.0;
+        at.seconds = kSeconds + frame * at.frameSeconds;
+        return from
+            .draw(
+                at,
+                [&](game::PictureRequest& request) {
+                    request.antiAliasing = AntiAliasing::Taa;
+                    request.drawsFramesBefore = true;
+                }
+            )
+            .color.pixels;
+    };
+    const auto settled = drawNext(frames, 0);
+    for (int frame = 1; frame < 20; ++frame)
+        EXPECT_EQ(drawNext(frames, frame), settled) << frame;
+    // The frames before it begin at another place in the pixel.
+    test::Frames resumed(device(), mScene);
+    EXPECT_EQ(drawNext(resumed, 5), settled);
+}
+
 TEST_F(TaaLaw, AConstantColorStaysAsItIs) {
     mScene.add(
         test::makeQuad(12.0, 12.0, mScene.addColor(math::vec3(0.25f, 0.5f, 0.75f))),

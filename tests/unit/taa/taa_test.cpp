@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace shutter::taa {
 namespace {
@@ -17,8 +16,6 @@ using math::vec2;
 using math::vec3;
 using shader::ColorMoments;
 using shader::Kept;
-
-constexpr float kLeastShare = 1.0f / float(kMostFrames);
 
 /// Moments of a neighbourhood that spreads evenly around a grey.
 ColorMoments makeMoments(float middle, float spread) {
@@ -82,60 +79,72 @@ TEST(TaaColor, WhatADisplayShowsStaysLinearAndABrightSampleDoesNotOutweighIt) {
     }
 }
 
-/// Without a doubt, whatever lies around.
-Kept mix(vec3 current, Kept last) {
-    return shader::mixWithLast(current, last, kLeastShare, false, makeMoments(0.0f, 0.0f));
+constexpr Kept kNothing{shader::ivec3(0), 0.0f};
+
+/// Where what is static looks as it did, whatever lies around.
+Kept add(float grey, Kept last) {
+    return shader::addFrame(vec3(grey), last, false, makeMoments(0.0f, 0.0f));
 }
 
-Kept mixInDoubt(vec3 current, Kept last, const ColorMoments& moments) {
-    return shader::mixWithLast(current, last, kLeastShare, true, moments);
+Kept addInDoubt(float grey, Kept last, const ColorMoments& moments) {
+    return shader::addFrame(vec3(grey), last, true, moments);
 }
 
-TEST(TaaHistory, FirstFramesAreThePlainMeanAndThenEachHasTheLeastShare) {
-    Kept kept{vec3(0.25f), 1.0f};
-    kept = mix(vec3(0.5f), kept);
-    EXPECT_EQ(kept.count, 2.0f);
-    EXPECT_NEAR(kept.color.x, 0.375f, 1e-5f);
-    kept = mix(vec3(0.5f), kept);
-    EXPECT_EQ(kept.count, 3.0f);
-    EXPECT_NEAR(kept.color.x, (0.25f + 0.5f + 0.5f) / 3.0f, 1e-5f);
-    for (int i = 0; i < 100; ++i)
-        kept = mix(vec3(0.5f), kept);
-    EXPECT_EQ(kept.count, float(kMostFrames));
-    EXPECT_NEAR(kept.color.x, 0.5f, 1e-2f);
+Kept makeKept(float grey, float count) {
+    return {shader::toSteps(vec3(grey * count)), count};
+}
+
+TEST(TaaHistory, EachFrameHasAnEqualShareUntilThereIsOnePerPlaceAndThenTheMeanStays) {
+    Kept kept = add(0.25f, kNothing);
+    EXPECT_EQ(kept.count, 1.0f);
+    EXPECT_EQ(shader::meanOf(kept), vec3(0.25f));
+    for (uint32_t i = 1; i < kPlaceCount; ++i)
+        kept = add(0.5f, kept);
+    EXPECT_EQ(kept.count, float(kPlaceCount));
+    EXPECT_NEAR(shader::meanOf(kept).x, 0.5f - 0.25f / float(kPlaceCount), 1e-6f);
+    const Kept next = add(0.75f, kept);
+    EXPECT_EQ(next.sum, kept.sum);
+    EXPECT_EQ(next.count, kept.count);
+}
+
+TEST(TaaHistory, TheSumDoesNotDependOnTheOrderOfFrames) {
+    Kept forwards = kNothing;
+    Kept backwards = kNothing;
+    for (uint32_t i = 0; i < kPlaceCount; ++i) {
+        const auto grey = [](uint32_t index) { return 1.9f / std::pow(3.0f, float(index)); };
+        forwards = add(grey(i), forwards);
+        backwards = add(grey(kPlaceCount - 1 - i), backwards);
+    }
+    EXPECT_EQ(forwards.sum, backwards.sum);
+}
+
+TEST(TaaHistory, TheBrightestColorsDoNotOverflowTheSum) {
+    Kept kept = kNothing;
+    for (uint32_t i = 0; i < 2 * kPlaceCount; ++i)
+        kept = addInDoubt(2.0f, kept, makeMoments(70000.0f, 0.0f));
+    EXPECT_NEAR(shader::meanOf(kept).x, 2.0f, 1e-4f);
 }
 
 TEST(TaaHistory, InDoubtAColorThatNoNeighbourLooksLikeIsClippedAndTrustedLess) {
-    const Kept ghost{vec3(5.0f), float(kPlaceCount)};
-    const Kept kept = mixInDoubt(vec3(0.2f), ghost, makeMoments(0.2f, 0.01f));
-    EXPECT_NEAR(kept.color.x, 0.2f, 0.02f);
+    const Kept ghost = makeKept(1.8f, float(kPlaceCount));
+    const Kept kept = addInDoubt(0.2f, ghost, makeMoments(0.2f, 0.01f));
+    EXPECT_NEAR(shader::meanOf(kept).x, 0.2f, 0.02f);
     EXPECT_LE(kept.count, 2.0f);
 }
 
-TEST(TaaHistory, WithoutADoubtAThinLineThatThisFrameMissesStays) {
-    const Kept line{vec3(0.3f), 4.0f}; // seen by one frame of three
-    const Kept kept = mix(vec3(0.0f), line);
-    EXPECT_NEAR(kept.color.x, 0.24f, 1e-5f);
-    EXPECT_EQ(kept.count, 5.0f);
-    EXPECT_LT(mixInDoubt(vec3(0.0f), line, makeMoments(0.0f, 0.0f)).color.x, 0.01f);
+TEST(TaaHistory, InDoubtASettledPixelTakesEachFrame) {
+    Kept kept = makeKept(0.3f, float(kPlaceCount));
+    for (int i = 0; i < 200; ++i)
+        kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
+    EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 1e-3f);
 }
 
-TEST(TaaHistory, NanInfinityAndEmptinessCountAsNothing) {
-    const float infinity = std::numeric_limits<float>::infinity();
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const Kept& last :
-         {Kept{vec3(nan, 0.5f, 0.5f), 4.0f},
-          Kept{vec3(0.5f, infinity, 0.5f), 4.0f},
-          Kept{vec3(0.5f, 0.5f, -infinity), 4.0f},
-          Kept{vec3(0.5f), nan},
-          Kept{vec3(0.5f), infinity},
-          Kept{vec3(0.5f), 0.0f}}) {
-        for (const Kept& kept :
-             {mix(vec3(0.25f), last), mixInDoubt(vec3(0.25f), last, makeMoments(0.5f, 0.4f))}) {
-            EXPECT_EQ(kept.color, vec3(0.25f));
-            EXPECT_EQ(kept.count, 1.0f);
-        }
-    }
+TEST(TaaHistory, WithoutADoubtAThinLineThatThisFrameMissesStays) {
+    const Kept line = makeKept(0.3f, 4.0f); // seen by one frame of three
+    const Kept kept = add(0.0f, line);
+    EXPECT_NEAR(shader::meanOf(kept).x, 0.24f, 1e-5f);
+    EXPECT_EQ(kept.count, 5.0f);
+    EXPECT_LT(shader::meanOf(addInDoubt(0.0f, line, makeMoments(0.0f, 0.0f))).x, 0.01f);
 }
 
 TEST(TaaMiddle, IsOfSamplesWhereverTheyLie) {
