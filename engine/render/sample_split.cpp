@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/sample_split.h"
 
+#include "spirv/render/split_edges.comp.h"
 #include "spirv/render/split_samples.comp.h"
 
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 #include "shaders/render/split_samples_shared.h"
+
+#include <array>
+#include <span>
 
 namespace shutter::render {
 
@@ -13,25 +17,90 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describePipeline() {
+/// Both shaders read the four images of samples and write those of a G-buffer.
+gpu::ComputePipelineDesc describePipeline(const char* name, std::span<const uint32_t> spirv) {
     gpu::ComputePipelineDesc desc;
-    desc.name = "split samples";
-    desc.spirv = render_split_samples_comp;
+    desc.name = name;
+    desc.spirv = spirv;
     desc.interface.bindings.assign(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    desc.interface.bindings.resize(9, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    desc.interface.bindings.resize(8, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     desc.interface.pushConstantBytes = sizeof(shader::SplitParams);
     return desc;
+}
+
+gpu::ComputePipelineDesc describeSplit() {
+    gpu::ComputePipelineDesc desc = describePipeline("split samples", render_split_samples_comp);
+    desc.interface.bindings.resize(10, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    return desc;
+}
+
+gpu::ComputePipelineDesc describeEdges() {
+    gpu::ComputePipelineDesc desc = describePipeline("split edges", render_split_edges_comp);
+    desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    return desc;
+}
+
+/// Pixels whose samples differ.
+struct EdgeList {
+    graph::BufferHandle arguments; ///< of the dispatch over them
+    graph::BufferHandle pixels;    ///< their number, then each
+};
+
+EdgeList declareList(graph::Graph& graph, const math::uvec2& sizePx) {
+    const VkDeviceSize pixels = VkDeviceSize{sizePx.x} * sizePx.y;
+    return graph.addPass<EdgeList>(
+        "clear edges",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, EdgeList& data) {
+            const auto create = [&](const char* name, VkDeviceSize words) {
+                return builder.write(
+                    graph.createBuffer(name, {words * sizeof(uint32_t)}), Access::TransferWrite
+                );
+            };
+            data.arguments = create("edge groups", 3);
+            data.pixels = create("edge pixels", pixels + 1);
+        },
+        [](const EdgeList& data, graph::PassContext& context) {
+            const std::array<uint32_t, 3> noGroups{0, 1, 1};
+            const VkBuffer arguments = context.resources.buffer(data.arguments);
+            vkCmdUpdateBuffer(context.commands, arguments, 0, sizeof(noGroups), noGroups.data());
+            vkCmdFillBuffer(
+                context.commands, context.resources.buffer(data.pixels), 0, sizeof(uint32_t), 0
+            );
+        }
+    );
 }
 
 struct Data {
     GBuffer samples;
     GBuffer split;
+    EdgeList edges;
 };
+
+void readSamples(graph::PassBuilder& builder, const GBuffer& samples) {
+    for (const graph::ImageHandle image :
+         {samples.color, samples.normal, samples.motionDepth, samples.entityId})
+        builder.read(image, Access::SampledCompute);
+}
+
+gpu::BindingList
+bindBoth(const gpu::Device& device, const graph::PassResources& resources, const Data& data) {
+    gpu::BindingList bindings;
+    const GBuffer& from = data.samples;
+    for (const graph::ImageHandle image :
+         {from.color, from.normal, from.motionDepth, from.entityId})
+        bindings.sampled(resources.view(image), device.nearestSampler());
+    const GBuffer& to = data.split;
+    for (const graph::ImageHandle image : {to.color, to.normal, to.motionDepth, to.entityId})
+        bindings.storage(resources.image(image));
+    return bindings;
+}
 
 } // namespace
 
 SampleSplit::SampleSplit(gpu::Device& device)
-    : mDevice(device), mPipeline(device, describePipeline()) {}
+    : mDevice(device), mSplit(device, describeSplit()), mEdges(device, describeEdges()) {}
 
 GBuffer SampleSplit::declare(
     graph::Graph& graph, const GBuffer& samples, bool keepsEdges, bool hasBlended
@@ -39,46 +108,70 @@ GBuffer SampleSplit::declare(
     const graph::TransientImageDesc size = graph.describeImage(samples.color);
     const shader::SplitParams params{
         {size.width, size.height}, keepsEdges ? 1u : 0u, hasBlended ? 1u : 0u};
+    const EdgeList list = declareList(graph, params.sizePx);
+    const Data& whole = graph.addPass<Data>(
+        "split samples",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            const auto create = [&](const char* name, VkFormat format) {
+                return builder.write(
+                    graph.createImage(name, {size.width, size.height, format}), Access::StorageWrite
+                );
+            };
+            readSamples(builder, samples);
+            data.samples = samples;
+            data.split.color = create("color", kColorFormat);
+            data.split.normal = create("normal", kNormalFormat);
+            data.split.motionDepth = create("motion depth", kMotionDepthFormat);
+            data.split.entityId = create("entity id", kEntityIdFormat);
+            data.edges = {
+                builder.write(list.arguments, Access::StorageWrite),
+                builder.write(list.pixels, Access::StorageWrite)};
+        },
+        [this, params](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = bindBoth(mDevice, resources, data);
+            bindings.buffer(resources.buffer(data.edges.arguments))
+                .buffer(resources.buffer(data.edges.pixels));
+            context.frame.bind(mSplit.get(), bindings, &params, sizeof(params));
+            vkCmdDispatch(
+                context.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
+            );
+        }
+    );
     GBuffer result =
         graph
             .addPass<Data>(
-                "split samples",
+                "split edges",
                 graph::PassKind::Compute,
                 [&](graph::PassBuilder& builder, Data& data) {
-                    const auto create = [&](const char* name, VkFormat format) {
-                        return builder.write(
-                            graph.createImage(name, {size.width, size.height, format}),
-                            Access::StorageWrite
-                        );
-                    };
-                    for (const graph::ImageHandle image :
-                         {samples.color, samples.normal, samples.motionDepth, samples.entityId})
-                        builder.read(image, Access::SampledCompute);
+                    readSamples(builder, samples);
                     data.samples = samples;
-                    data.split.color = create("color", kColorFormat);
-                    data.split.normal = create("normal", kNormalFormat);
-                    data.split.motionDepth = create("motion depth", kMotionDepthFormat);
-                    data.split.entityId = create("entity id", kEntityIdFormat);
-                    data.split.edgeSurface = create("edge surface", kEdgeSurfaceFormat);
+                    data.split = whole.split;
+                    for (graph::ImageHandle* image :
+                         {&data.split.color,
+                          &data.split.normal,
+                          &data.split.motionDepth,
+                          &data.split.entityId})
+                        *image = builder.write(*image, Access::StorageWrite);
+                    data.split.edgeSurface = builder.write(
+                        graph.createImage(
+                            "edge surface", {size.width, size.height, kEdgeSurfaceFormat}
+                        ),
+                        Access::StorageWrite
+                    );
+                    data.edges = {
+                        builder.read(whole.edges.arguments, Access::IndirectRead),
+                        builder.read(whole.edges.pixels, Access::StorageRead)};
                 },
                 [this, params](const Data& data, graph::PassContext& context) {
                     const graph::PassResources& resources = context.resources;
-                    const GBuffer& drawn = data.samples;
-                    const GBuffer& split = data.split;
-                    gpu::BindingList bindings;
-                    for (const graph::ImageHandle image :
-                         {drawn.color, drawn.normal, drawn.motionDepth, drawn.entityId})
-                        bindings.sampled(resources.view(image), mDevice.nearestSampler());
-                    for (const graph::ImageHandle image :
-                         {split.color,
-                          split.normal,
-                          split.motionDepth,
-                          split.entityId,
-                          split.edgeSurface})
-                        bindings.storage(resources.image(image));
-                    context.frame.bind(mPipeline.get(), bindings, &params, sizeof(params));
-                    vkCmdDispatch(
-                        context.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
+                    gpu::BindingList bindings = bindBoth(mDevice, resources, data);
+                    bindings.storage(resources.image(data.split.edgeSurface))
+                        .buffer(resources.buffer(data.edges.pixels));
+                    context.frame.bind(mEdges.get(), bindings, &params, sizeof(params));
+                    vkCmdDispatchIndirect(
+                        context.commands, resources.buffer(data.edges.arguments), 0
                     );
                 }
             )

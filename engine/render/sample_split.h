@@ -21,7 +21,8 @@ class SampleSplit {
 
   private:
     gpu::Device& mDevice;
-    gpu::LazyPipeline mPipeline;
+    gpu::LazyPipeline mSplit;
+    gpu::LazyPipeline mEdges;
 };
 
 } // namespace shutter::render

@@ -11,6 +11,9 @@ SHUTTER_SHADER_BEGIN
 /// Samples of a pixel, where more than one is drawn: Vulkan's standard locations.
 SHUTTER_CONST uint kSampleCount = 4u;
 
+/// Pixels per work group of split_edges.comp.
+SHUTTER_CONST uint kSplitGroupSize = 64u;
+
 /// Place of a sample from the pixel's upper left corner (Vulkan specification, "Multisampling").
 SHUTTER_INLINE vec2 placeOfSample(uint index) {
     return vec2(

@@ -39,7 +39,7 @@ HOT = (
     "jimenez2014", "list candidates", "list candidates, last frame",
     "list candidates, second raster", "list crowds", "mcguire2012", "pack surface",
     "particle composite", "particles", "ray mask", "ray reveal", "resolve", "resolve uniform",
-    "rosado2007", "shape ways", "sort candidates", "split samples", "stochastic rays", "taa",
+    "rosado2007", "shape ways", "sort candidates", "split edges", "split samples", "stochastic rays", "taa",
     "tile max", "trace samples",
 )
 # Statistics of the driver, by the names that tables and pins use. Waves are those of 32 lanes that a

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Splits the samples of a pixel into its own surface, which is the one that covers most of them,
+// and the one that covers most of the others. What moves alike counts as one surface.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "render/split_samples_shared.h"
+
+layout(local_size_x = kSplitGroupSize) in;
+layout(push_constant, scalar) uniform Push { SplitParams params; };
+layout(binding = 0) uniform sampler2DMS uColorSamples;
+layout(binding = 1) uniform sampler2DMS uNormalSamples;
+layout(binding = 2) uniform sampler2DMS uMotionDepthSamples;
+layout(binding = 3) uniform usampler2DMS uEntityIdSamples;
+layout(binding = 4, rgba16f) uniform writeonly image2D uColor;
+layout(binding = 5, rgba16f) uniform writeonly image2D uNormal;
+layout(binding = 6, rgba32f) uniform writeonly image2D uMotionDepth;
+layout(binding = 7, r32ui) uniform writeonly uimage2D uEntityId;
+layout(binding = 8, rgba32ui) uniform writeonly uimage2D uEdgeSurface;
+layout(binding = 9, scalar) readonly buffer Edges {
+    uint count;
+    uint pixels[]; // x | y << 16
+} uEdges;
+
+/// Surfaces whose motion differs by less count as one: the mean of their colours moves with both.
+const float kApartPx = 0.25f;
+
+bool isSame(vec3 motionDepthA, vec3 motionDepthB) {
+    return distance(motionDepthA.xy, motionDepthB.xy) < kApartPx;
+}
+
+/// A bit for each of the samples that are of the surface which covers most of them; of two that cover
+/// as many, the nearer.
+/// \param among a bit for each sample that counts, at least one
+uint findMost(vec3 motionDepths[kSampleCount], uint among) {
+    uint most = 0u;
+    float depth = 0.0f;
+    for (uint i = 0u; i < kSampleCount; ++i) {
+        if ((among >> i & 1u) == 0u) continue;
+        uint same = 0u;
+        for (uint j = 0u; j < kSampleCount; ++j)
+            if ((among >> j & 1u) != 0u && (i == j || isSame(motionDepths[i], motionDepths[j])))
+                same |= 1u << j;
+        bool isNearer = bitCount(same) == bitCount(most) && motionDepths[i].z < depth;
+        if (bitCount(same) <= bitCount(most) && !isNearer) continue;
+        most = same;
+        depth = motionDepths[i].z;
+    }
+    return most;
+}
+
+/// A sample and what it shows.
+struct Seen {
+    int index;
+    float depth;
+    uint id;
+};
+
+/// Of the entity that covers most of the samples; of two that cover as many, the nearer.
+/// \param among a bit for each sample that counts, at least one
+Seen findEntity(vec3 motionDepths[kSampleCount], uint ids[kSampleCount], uint among) {
+    Seen found = Seen(0, 0.0f, 0u);
+    uint most = 0u;
+    for (uint i = 0u; i < kSampleCount; ++i) {
+        if ((among >> i & 1u) == 0u) continue;
+        uint count = 0u;
+        for (uint j = 0u; j < kSampleCount; ++j)
+            if ((among >> j & 1u) != 0u && ids[j] == ids[i]) ++count;
+        bool isNearer = count == most && motionDepths[i].z < found.depth;
+        if (count <= most && !isNearer) continue;
+        most = count;
+        found = Seen(int(i), motionDepths[i].z, ids[i]);
+    }
+    return found;
+}
+
+/// \param among a bit for each sample that counts, at least one
+vec4 meanColor(vec4 colors[kSampleCount], uint among) {
+    vec4 sum = vec4(0.0f);
+    for (uint i = 0u; i < kSampleCount; ++i)
+        if ((among >> i & 1u) != 0u) sum += colors[i];
+    return sum / float(bitCount(among));
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= uEdges.count) return;
+    uint packed = uEdges.pixels[index];
+    ivec2 pixel = ivec2(packed & 0xFFFFu, packed >> 16);
+    const uint kAll = (1u << kSampleCount) - 1u;
+    vec3 motionDepths[kSampleCount];
+    vec4 colors[kSampleCount];
+    uint ids[kSampleCount];
+    for (uint i = 0u; i < kSampleCount; ++i) {
+        motionDepths[i] = texelFetch(uMotionDepthSamples, pixel, int(i)).xyz;
+        colors[i] = texelFetch(uColorSamples, pixel, int(i));
+        ids[i] = texelFetch(uEntityIdSamples, pixel, int(i)).x;
+    }
+    uint own = findMost(motionDepths, kAll);
+    uint others = params.keepsEdges != 0u ? kAll & ~own : 0u;
+    if (others != 0u) {
+        uint other = findMost(motionDepths, others);
+        Seen seen = findEntity(motionDepths, ids, other);
+        vec4 color = meanColor(colors, other);
+        imageStore(
+            uEdgeSurface, pixel,
+            uvec4(
+                floatBitsToUint(seen.depth), seen.id, packHalf2x16(color.rg),
+                packHalf2x16(vec2(color.b, 0.0f))
+            )
+        );
+    }
+    Seen seen = findEntity(motionDepths, ids, own);
+    vec2 motion = texelFetch(uMotionDepthSamples, pixel, seen.index).xy;
+    imageStore(uColor, pixel, meanColor(colors, kAll & ~others));
+    imageStore(uNormal, pixel, texelFetch(uNormalSamples, pixel, seen.index));
+    imageStore(uMotionDepth, pixel, vec4(motion, seen.depth, float(others)));
+    imageStore(uEntityId, pixel, uvec4(seen.id, 0u, 0u, 0u));
+}
