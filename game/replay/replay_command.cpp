@@ -70,9 +70,10 @@ int run(const Arguments& arguments) {
         return game::fail(game::kExitUsage, makeError("--show-inputs needs --out"));
     if (arguments.method.typed.contains("--budget"))
         return game::fail(game::kExitUsage, makeError("--budget is not for a replay"));
-    MotionBlurSettings any;
-    if (const core::Status valid = change(arguments, any); arguments.hasMethod && !valid)
-        return game::fail(game::kExitUsage, valid.error());
+    // Without a method the options are for that of each frame.
+    if (MotionBlurSettings any; arguments.hasMethod)
+        if (const core::Status valid = change(arguments, any); !valid)
+            return game::fail(game::kExitUsage, valid.error());
     if (!options.out.empty())
         if (const core::Status writable = io::checkWritable(options.out); !writable)
             return game::fail(game::kExitFailed, makeError("--out: {}", writable.error().message));

@@ -63,6 +63,12 @@ TEST_F(CliScenes, AFileOutsideTheFolderIsReadOnlyWhereThatIsAllowed) {
     expectSuccess({"info", "sub/scene.gltf", "--allow-outside"});
 }
 
+TEST_F(CliScenes, ReplayOfAMissingDumpNamesItWithAMethodAndWithout) {
+    requireDevice();
+    expectRefusal({"replay", "missing"}, kFailed, {"missing"});
+    expectRefusal({"replay", "missing", "--method", "gather"}, kFailed, {"missing"});
+}
+
 TEST_F(CliScenes, AMissingFileIsNamed) {
     expectSceneRefusal("nosuch.glb", {"nosuch.glb"});
     expectSceneRefusal("nosuch/scene.gltf", {"nosuch/scene.gltf"});
