@@ -56,12 +56,12 @@ Status checkFilmSize(const game::PictureSize& size) {
 
 /// What the truth shows of a pixel, and how methods smooth edges.
 Status applyEdges(const BenchArguments& arguments, Suite& suite) {
-    const bool isBox = arguments.shot.pixel == extract::PixelModel::Box;
-    if (!suite.axes.empty() && (isBox || !arguments.antiAliasings.empty()))
+    const bool hasPixel = arguments.pixelOption != nullptr && arguments.pixelOption->count() > 0;
+    if (!suite.axes.empty() && (hasPixel || !arguments.antiAliasings.empty()))
         return core::makeError(
-            "{}: the suite {} measures times alone", isBox ? "--pixel box" : "--aa", suite.name
+            "{}: the suite {} measures times alone", hasPixel ? "--pixel" : "--aa", suite.name
         );
-    if (isBox)
+    if (hasPixel)
         suite.pixel = arguments.shot.pixel;
     if (!arguments.antiAliasings.empty())
         suite.antiAliasings.clear();
@@ -195,6 +195,7 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     const std::vector<CLI::Option*> before = command.get_options();
     game::defineSceneOptions(command, arguments.shot);
     game::defineShotOptions(command, arguments.shot);
+    arguments.pixelOption = command.get_option("--pixel");
     // Its pictures are those of the methods alone; --aa takes several words here.
     for (const char* name : {"--aa", "--bloom", "--bloom-threshold", "--bloom-knee"})
         command.remove_option(command.get_option(name));

@@ -34,7 +34,8 @@ struct BenchArguments {
     bool restart = false;
     bool reportOnly = false;
 
-    std::vector<CLI::Option*> shotOptions; ///< which only a scene of one's own has
+    std::vector<CLI::Option*> shotOptions;    ///< which only a scene of one's own has
+    const CLI::Option* pixelOption = nullptr; ///< --pixel
 };
 
 /// What is to be measured.

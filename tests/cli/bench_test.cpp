@@ -99,7 +99,7 @@ TEST_F(BenchCommand, AntiAliasingIsAListOfKnownWords) {
         {"bench", "--suite", "scaling", "--aa", "taa", "--out", out}, 2, {"--aa", "times alone"}
     );
     expectRefusal(
-        {"bench", "--suite", "scaling", "--pixel", "box", "--out", out}, 2, {"--pixel box", "alone"}
+        {"bench", "--suite", "scaling", "--pixel", "box", "--out", out}, 2, {"--pixel", "alone"}
     );
 }
 

@@ -28,6 +28,7 @@ constexpr std::array kLimits{
     SHUTTER_LIMIT(maxSamplerAllocationCount),
     SHUTTER_LIMIT(maxPerStageDescriptorSamplers),
     SHUTTER_LIMIT(maxPerStageDescriptorSampledImages),
+    SHUTTER_LIMIT(standardSampleLocations),
 };
 #undef SHUTTER_LIMIT
 

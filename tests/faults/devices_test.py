@@ -51,6 +51,18 @@ class Devices(FaultCase):
                 decibels = re.search(r"PSNR (\S+)", compared.stdout)[1]
                 self.assertGreater(float(decibels), 100.0, compared.stdout)
 
+    def test_without_standard_sample_places_a_moving_camera_has_one_sample_per_pixel(self):
+        for limits, has_split in (("", True), ("standardSampleLocations=0", False)):
+            with self.subTest(limits=limits):
+                self.expect_done(self.run_faulty(
+                    ["render", f"{ASSETS}/courtyard.glb", "--device", DEVICE, "--camera", "pan",
+                     "--time", "0.5", "--size", "160x90", "--validate", "--method", "resolved",
+                     "--aa", "taa", "--stats", "stats.json", "--out", "a.png"],
+                    {"limits": limits} if limits else {}))
+                stats = json.loads((self.folder / "stats.json").read_text(encoding="utf-8"))
+                passes = [one["name"] for one in stats["pictures"][0]["passes"]]
+                self.assertEqual("split samples" in passes, has_split)
+
     def test_without_rays_the_methods_that_need_them_say_so(self):
         for hidden in (f"{QUERY},{PIPELINE}", "accelerationStructure", "rayQuery,rayTracingPipeline",
                        "VK_KHR_acceleration_structure", "VK_KHR_deferred_host_operations"):

@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -63,6 +65,9 @@ class TaaLaw : public test::GpuTest {
                 [&](game::PictureRequest& request) {
                     request.antiAliasing = antiAliasing;
                     request.drawsFramesBefore = true;
+                    if (mRaysPerPixel)
+                        request.method.motionBlur.raysPerPixel = *mRaysPerPixel;
+                    request.method.motionBlur.secondRaster = mHasSecondRaster;
                 }
             )
             .color;
@@ -100,6 +105,8 @@ class TaaLaw : public test::GpuTest {
     std::string_view mMethod = "sharp";
     extract::ShadowSettings mShadows;
     double mExposureSeconds = 1.0 / 60.0;
+    std::optional<float> mRaysPerPixel; ///< of `adaptive`
+    bool mHasSecondRaster = false;
     ecs::Entity mTiles;
 };
 
@@ -129,30 +136,66 @@ TEST_F(TaaLaw, AStaticPictureIsTheMeanOverThePixel) {
     EXPECT_LT(measureError(AntiAliasing::Taa), 0.25 * measureError(AntiAliasing::None));
 }
 
-TEST_F(TaaLaw, AStaticPictureStaysAsItIsOnceItIsSettledAndHasTheSameBitsAfterAResume) {
-    addTiles({.position = {0, 0, -5}});
-    const test::Shot shot{.method = mMethod, .shadows = mShadows};
-    test::Frames frames(device(), mScene);
-    const auto drawNext = [&](test::Frames& from, int frame) {
-        test::Shot at = shot;
-        at.frameSeconds = 1.0 / 24.0;
-        at.seconds = kSeconds + frame * at.frameSeconds;
-        return from
+/// Frames that follow one another, of one view.
+class TaaSequence : public TaaLaw {
+  protected:
+    std::vector<float> drawFrame(test::Frames& frames, int frame) {
+        constexpr double kFrameSeconds = 1.0 / 24.0;
+        const test::Shot shot{
+            .method = mMethod,
+            .seconds = kSeconds + frame * kFrameSeconds,
+            .exposureSeconds = mExposureSeconds,
+            .phase = scene::ShutterPhase::End,
+            .frameSeconds = kFrameSeconds};
+        return frames
             .draw(
-                at,
-                [&](game::PictureRequest& request) {
+                shot,
+                [](game::PictureRequest& request) {
                     request.antiAliasing = AntiAliasing::Taa;
                     request.drawsFramesBefore = true;
                 }
             )
             .color.pixels;
-    };
-    const auto settled = drawNext(frames, 0);
+    }
+};
+
+TEST_F(TaaSequence, AStaticPictureThatIsSettledStaysAndHasTheSameBitsAfterAResume) {
+    addTiles({.position = {0, 0, -5}});
+    test::Frames frames(device(), mScene);
+    const auto settled = drawFrame(frames, 0);
     for (int frame = 1; frame < 20; ++frame)
-        EXPECT_EQ(drawNext(frames, frame), settled) << frame;
+        EXPECT_EQ(drawFrame(frames, frame), settled) << frame;
     // The frames before it begin at another place in the pixel.
     test::Frames resumed(device(), mScene);
-    EXPECT_EQ(drawNext(resumed, 5), settled);
+    EXPECT_EQ(drawFrame(resumed, 5), settled);
+}
+
+TEST_F(TaaSequence, ACameraThatStopsAndSetsOffHasTheBitsOfAResumeOnceItIsSettled) {
+    addTiles({.position = {0, 0, -5}});
+    scene::PathMotion path;
+    path.interpolation = scene::PathInterpolation::Linear;
+    path.keys = {
+        {.seconds = 0.0},
+        {.seconds = kSeconds},
+        {.seconds = kSeconds + 20.5 / 24.0},
+        {.seconds = kSeconds + 2.0}};
+    path.keys[0].position = math::dvec3(-2.0, 0, 0);
+    path.keys[3].position = math::dvec3(2.0, 0, 0);
+    mScene.world.registry.add(mScene.camera, path);
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        mMethod = method;
+        test::Frames frames(device(), mScene);
+        std::map<int, std::vector<float>> drawn;
+        for (int frame = -3; frame < 24; ++frame)
+            drawn[frame] = drawFrame(frames, frame);
+        // It moves, has just stopped, rests, and moves again: only what rests has a history.
+        for (const int frame : {-1, 18, 23}) {
+            test::Frames resumed(device(), mScene);
+            EXPECT_EQ(drawFrame(resumed, frame), drawn[frame]) << method << ' ' << frame;
+        }
+        EXPECT_NE(drawn[-1], drawn[0]);
+        EXPECT_NE(drawn[18], drawn[23]);
+    }
 }
 
 TEST_F(TaaLaw, AConstantColorStaysAsItIs) {
@@ -206,6 +249,31 @@ TEST_F(TaaEdge, ASilhouetteIsSmoothWithEachMethod) {
         EXPECT_LT(measureError(AntiAliasing::Taa), share * measureError(AntiAliasing::None))
             << method;
     }
+}
+
+TEST_F(TaaEdge, AdaptiveWithoutRaysHasTheBitsOfResolved) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << "adaptive needs ray queries";
+    slideCamera(1.5);
+    addWall(math::vec3(0.05f), 9.0);
+    addSquare(math::vec3(0.9f), kDistance, {3.0, 0, 0});
+    mMethod = "resolved";
+    const image::Image expected = draw(AntiAliasing::Taa);
+    mMethod = "adaptive";
+    mRaysPerPixel = 0.0f;
+    EXPECT_EQ(draw(AntiAliasing::Taa).pixels, expected.pixels);
+    mRaysPerPixel = 1.0f;
+    EXPECT_NE(draw(AntiAliasing::Taa).pixels, expected.pixels);
+}
+
+TEST_F(TaaEdge, ASecondRasterMakesSilhouettesNoWorse) {
+    slideCamera(1.5);
+    addWall(math::vec3(0.05f), 9.0);
+    addSquare(math::vec3(0.9f), kDistance, {3.0, 0, 0});
+    mMethod = "resolved";
+    const double one = measureError(AntiAliasing::Taa);
+    mHasSecondRaster = true;
+    EXPECT_LT(measureError(AntiAliasing::Taa), 1.05 * one);
 }
 
 TEST_F(TaaEdge, AWireThinnerThanAPixelKeepsItsLight) {

@@ -3,6 +3,7 @@
 #include "engine/image/flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
+#include "game/bench/bench_arguments.h"
 #include "game/bench/case_stage.h"
 #include "game/bench/contenders.h"
 #include "game/bench/crops.h"
@@ -14,6 +15,7 @@
 #include "game/bench/truth_cache.h"
 #include "tests/support/temp_folder.h"
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,6 +88,22 @@ TEST(Suites, EachCaseIsThereWithEachAntiAliasingAndTheSuitesPixel) {
     ASSERT_EQ(suite.sequences.size(), 3u);
     EXPECT_EQ(suite.sequences[2].name, "film-box");
     EXPECT_EQ(suite.sequences[2].shot.pixel, extract::PixelModel::Box);
+}
+
+TEST(Suites, PixelOverridesThatOfASuite) {
+    for (const auto& [words, pixel] :
+         {std::pair{"--suite edges --out x", extract::PixelModel::Box},
+          std::pair{"--suite edges --pixel centre --out x", extract::PixelModel::Centre},
+          std::pair{"--suite paper --out x", extract::PixelModel::Centre},
+          std::pair{"--suite paper --pixel box --out x", extract::PixelModel::Box}}) {
+        CLI::App app;
+        BenchArguments arguments;
+        defineBenchOptions(app, arguments);
+        app.parse(words);
+        const auto task = interpretBench(arguments);
+        ASSERT_TRUE(task.ok()) << words << ": " << task.error().message;
+        EXPECT_EQ(task.value().suite.cases.front().shot.pixel, pixel) << words;
+    }
 }
 
 TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
