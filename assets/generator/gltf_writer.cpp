@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -58,6 +59,20 @@ void putWord(std::string& out, size_t value) {
     out.append(bytes, 4);
 }
 
+/// Of a file that is long enough (checked before).
+uint32_t getWord(std::span<const uint8_t> file, size_t at) {
+    uint32_t word = 0;
+    std::memcpy(&word, file.data() + at, sizeof(word));
+    return word;
+}
+
+/// Kinematic: a physics engine must keep the velocity and let no gravity bend it.
+void setVelocity(json& node, const char* kind, glm::vec3 velocity) {
+    json& motion = node["extensions"]["KHR_physics_rigid_bodies"]["motion"];
+    motion["isKinematic"] = true;
+    motion[kind] = toJson(velocity);
+}
+
 } // namespace
 
 GltfWriter::GltfWriter(std::string title) {
@@ -75,6 +90,49 @@ GltfWriter::GltfWriter(std::string title) {
           {"wrapS", kRepeat},
           {"wrapT", kRepeat}}}
     );
+}
+
+GltfWriter GltfWriter::open(const std::filesystem::path& path) {
+    GltfWriter writer;
+    writer.mError = writer.read(path);
+    return writer;
+}
+
+std::string GltfWriter::read(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    const std::vector<uint8_t> file(
+        (std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()
+    );
+    constexpr size_t kHeader = 12;
+    constexpr size_t kChunkHeader = 8;
+    const std::string refusal =
+        fmt::format("{} is no binary glTF file with one buffer.", path.string());
+    if (file.size() < kHeader + kChunkHeader || std::memcmp(file.data(), "glTF", 4) != 0) {
+        return refusal;
+    }
+    const size_t text = kHeader + kChunkHeader;
+    const size_t textBytes = getWord(file, kHeader);
+    if (file.size() < text + textBytes + kChunkHeader) {
+        return refusal;
+    }
+    const size_t binary = text + textBytes + kChunkHeader;
+    const size_t binaryBytes = getWord(file, text + textBytes);
+    json root = json::parse(file.data() + text, file.data() + text + textBytes, nullptr, false);
+    if (!root.is_object() || root.value("buffers", json::array()).size() != 1 ||
+        file.size() < binary + binaryBytes) {
+        return refusal;
+    }
+    mRoot = std::move(root);
+    mBuffer.assign(file.data() + binary, file.data() + binary + binaryBytes);
+    useExtension("KHR_physics_rigid_bodies");
+    return {};
+}
+
+void GltfWriter::useExtension(const char* name) {
+    json& used = mRoot["extensionsUsed"];
+    if (std::find(used.begin(), used.end(), name) == used.end()) {
+        used.push_back(name);
+    }
 }
 
 Index GltfWriter::addView(const void* data, size_t byteCount, int target) {
@@ -159,8 +217,14 @@ Index GltfWriter::addMaterial(const MaterialDesc& material) {
     if (material.doubleSided) {
         entry["doubleSided"] = true;
     }
-    if (material.emissive != glm::vec3(0.0f)) {
-        entry["emissiveFactor"] = toJson(material.emissive);
+    const glm::vec3 light = material.emissive;
+    const float brightest = std::max({light.x, light.y, light.z});
+    if (brightest > 0.0f) {
+        entry["emissiveFactor"] = toJson(light / std::max(brightest, 1.0f));
+    }
+    if (brightest > 1.0f) {
+        entry["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = brightest;
+        useExtension("KHR_materials_emissive_strength");
     }
     return addEntry(mRoot["materials"], entry);
 }
@@ -226,13 +290,17 @@ Index GltfWriter::addSkin(
     );
 }
 
-Index GltfWriter::addCamera(const std::string& name, float yFov, float nearMetres) {
-    return addEntry(
-        mRoot["cameras"],
-        {{"name", name},
-         {"type", "perspective"},
-         {"perspective", {{"aspectRatio", 16.0 / 9.0}, {"yfov", yFov}, {"znear", nearMetres}}}}
-    );
+Index GltfWriter::addCamera(
+    const std::string& name, float yFov, float nearMetres, const json& lens
+) {
+    json camera = {
+        {"name", name},
+        {"type", "perspective"},
+        {"perspective", {{"aspectRatio", 16.0 / 9.0}, {"yfov", yFov}, {"znear", nearMetres}}}};
+    if (!lens.is_null()) {
+        camera["extras"]["lens"] = lens;
+    }
+    return addEntry(mRoot["cameras"], std::move(camera));
 }
 
 Index GltfWriter::addLight(const std::string& name, const LightDesc& light) {
@@ -271,16 +339,11 @@ Index GltfWriter::addNode(const NodeDesc& node) {
     if (node.light != kNothing) {
         entry["extensions"]["KHR_lights_punctual"]["light"] = node.light;
     }
-    if (node.linearVelocity || node.angularVelocity) {
-        // Kinematic: a physics engine must keep the velocity and let no gravity bend it.
-        json motion = {{"isKinematic", true}};
-        if (node.linearVelocity) {
-            motion["linearVelocity"] = toJson(*node.linearVelocity);
-        }
-        if (node.angularVelocity) {
-            motion["angularVelocity"] = toJson(*node.angularVelocity);
-        }
-        entry["extensions"]["KHR_physics_rigid_bodies"]["motion"] = motion;
+    if (node.linearVelocity) {
+        setVelocity(entry, "linearVelocity", *node.linearVelocity);
+    }
+    if (node.angularVelocity) {
+        setVelocity(entry, "angularVelocity", *node.angularVelocity);
     }
     const Index index = addEntry(mRoot["nodes"], entry);
     json& siblings = node.parent == kNothing
@@ -288,6 +351,18 @@ Index GltfWriter::addNode(const NodeDesc& node) {
                          : mRoot["nodes"][static_cast<size_t>(node.parent)]["children"];
     siblings.push_back(index);
     return index;
+}
+
+void GltfWriter::moveNode(const std::string& name, glm::vec3 linearVelocity) {
+    json& nodes = mRoot["nodes"];
+    const auto found = std::find_if(nodes.begin(), nodes.end(), [&](const json& node) {
+        return node.value("name", "") == name;
+    });
+    if (found != nodes.end()) {
+        setVelocity(*found, "linearVelocity", linearVelocity);
+    } else if (mError.empty()) {
+        mError = fmt::format("The scene has no node \"{}\".", name);
+    }
 }
 
 Index GltfWriter::addClip(const std::string& name) {

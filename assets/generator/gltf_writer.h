@@ -28,7 +28,7 @@ struct MaterialDesc {
     Index texture = kNothing; ///< base colour, sRGB
     float metallic = 0.0f;    ///< [0, 1]
     float roughness = 0.8f;   ///< [0, 1]
-    glm::vec3 emissive{0.0f}; ///< linear, [0, 1]
+    glm::vec3 emissive{0.0f}; ///< linear, 0 or more; above 1 by KHR_materials_emissive_strength
     bool doubleSided = false;
     float alpha = 1.0f; ///< [0, 1]; below 1 it blends
 };
@@ -67,15 +67,25 @@ class GltfWriter {
   public:
     explicit GltfWriter(std::string title);
 
+    /// The scene of a binary glTF file with one buffer, to be added to. What is wrong with the file
+    /// is told by write().
+    [[nodiscard]] static GltfWriter open(const std::filesystem::path& path);
+
     /// Repeats, with mip maps.
     Index addTexture(const std::string& name, const Picture& picture);
     Index addMaterial(const MaterialDesc& material);
     Index addMesh(const std::string& name, std::span<const MeshPart> parts);
     /// Perspective, 16:9, far plane at infinity. \param yFov radians
-    Index addCamera(const std::string& name, float yFov, float nearMetres);
+    /// \param lens extras.lens (docs/lens.md); null: a pinhole
+    Index addCamera(
+        const std::string& name, float yFov, float nearMetres, const nlohmann::json& lens = {}
+    );
     Index addLight(const std::string& name, const LightDesc& light);
     /// The parent must have been added before.
     Index addNode(const NodeDesc& node);
+    /// Gives the first node of that name a velocity, m/s in its own space. write() tells that there
+    /// is none.
+    void moveNode(const std::string& name, glm::vec3 linearVelocity);
 
     /// \param joints nodes, added before \param jointFromBind inverse bind matrices, one per joint
     Index addSkin(
@@ -104,6 +114,10 @@ class GltfWriter {
     [[nodiscard]] std::string write(const std::filesystem::path& path) const;
 
   private:
+    GltfWriter() = default;
+
+    [[nodiscard]] std::string read(const std::filesystem::path& path);
+    void useExtension(const char* name);
     Index addView(const void* data, size_t byteCount, int target);
     Index addFloats(std::span<const float> values, int componentCount, int target, bool withBounds);
     Index addIndices(std::span<const uint32_t> indices);

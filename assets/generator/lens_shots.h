@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Shots of rooms that a lens sees: what is put into a room, what moves there, and the camera.
+#pragma once
+
+#include "assets/generator/gltf_writer.h"
+
+#include <span>
+
+namespace shutter::generator {
+
+/// Name of the camera that has the lens.
+inline constexpr const char* kLensCamera = "lens";
+
+struct LensShot {
+    const char* name;        ///< [a-z]
+    const char* title;       ///< for people
+    const char* description; ///< one sentence
+    const char* room;        ///< binary glTF file, relative to the folder of rooms
+    /// Adds the camera kLensCamera, laid out for an exposure of kExposureSeconds that ends at time
+    /// 0, and what the shot has beside the room.
+    void (*furnish)(GltfWriter& writer);
+};
+
+/// In the order in which they are meant to be read.
+[[nodiscard]] std::span<const LensShot> listLensShots();
+
+} // namespace shutter::generator
