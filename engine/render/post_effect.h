@@ -158,7 +158,7 @@ class PostEffect {
     [[nodiscard]] virtual std::string name() const = 0;
 
     /// What its passes count as: PassOwner::Display for one that shows or keeps the picture,
-    /// PassOwner::Blur for none but the methods of motion blur.
+    /// PassOwner::Blur for none but what blurs by motion or by the lens.
     [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Other; }
 
     /// Pure: depends on the facts and the effect's settings only.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Depth of field from one picture and its depth, by filters of other engines: what the lens's own
+// method is compared with. README.md says how they follow their publications.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "engine/render/post_effect.h"
+#include "modules/depth_of_field/filters.h"
+#include "shaders/depth_of_field/depth_of_field_shared.h"
+
+#include <cstdint>
+#include <map>
+
+namespace shutter::depth_of_field {
+
+inline constexpr uint32_t kDefaultTaps = 64;
+inline constexpr uint32_t kMostTaps = 1024;
+
+struct DepthOfFieldSettings {
+    const Filter* filter = nullptr; ///< null: there is no depth of field
+    uint32_t taps = kDefaultTaps;   ///< of each gather, [1, kMostTaps]
+};
+
+/// Side of a tile in pixels, for a picture of that height: circles of confusion reach as far in
+/// each.
+[[nodiscard]] uint32_t computeTileSize(uint32_t height);
+
+/// Filters the linear picture by the camera's lens at the raster instant; a camera without one
+/// leaves the picture as it is. Circles of confusion are discs whatever the lens's blades and
+/// squeeze, and at most shader::kReachTiles tiles in radius. Writes RGBA16F.
+class DepthOfField : public render::PostEffect {
+  public:
+    explicit DepthOfField(gpu::Device& device);
+
+    /// For the frames to come. \param settings valid
+    void configure(const DepthOfFieldSettings& settings);
+
+    [[nodiscard]] std::string name() const override { return "depth of field"; }
+
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
+
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    void extract(render::ExtractContext& context) override;
+    void declare(render::PostContext& context) override;
+
+  private:
+    [[nodiscard]] graph::ImageHandle addTiles(
+        graph::Graph& graph, graph::ImageHandle motionDepth, const shader::LensFilterParams& params
+    ) const;
+    [[nodiscard]] graph::ImageHandle addReach(
+        graph::Graph& graph, graph::ImageHandle tiles, const shader::LensFilterParams& params
+    ) const;
+    [[nodiscard]] graph::ImageHandle addFilter(
+        const render::PostContext& context,
+        graph::ImageHandle reach,
+        const shader::LensFilterParams& params
+    );
+    /// Made when a frame first needs it.
+    [[nodiscard]] const gpu::LazyPipeline& findFilterPipeline();
+
+    gpu::Device& mDevice;
+    DepthOfFieldSettings mSettings;
+    double mConfusionPx = 0.0;  ///< of the frame that is extracted: LensFilterParams's
+    double mInverseFocus = 0.0; ///< likewise, 1/m
+    gpu::LazyPipeline mTiles;
+    gpu::LazyPipeline mReach;
+    std::map<const Filter*, gpu::LazyPipeline> mFilters;
+};
+
+} // namespace shutter::depth_of_field

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A near field over a far field (Sousa 2013, "CryENGINE 3 Graphics Gems"; Abadie 2018, "A Life of a
+// Bokeh"). The near field gathers over the largest circle of confusion within reach and covers what the
+// circles of its taps do; the far field gathers over the pixel's own circle, and what is in focus does
+// not leak into it. Behind a pixel of the near field lies the mean of the taps that are not near.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "depth_of_field/taps.glsl"
+
+/// 1 within a circle, down to 0 over its rim of one pixel.
+float coverRim(float radius, float distancePx) { return saturate(radius - distancePx + 0.5f); }
+
+struct NearField {
+    vec4 light;    // weighted colours, sum of weights
+    vec4 behind;   // colours of the taps that are not near, and their number
+    float covered; // share of the pixel
+};
+
+NearField gatherNear(vec2 centre, float reach, float turn) {
+    NearField near = NearField(vec4(0.0f), vec4(0.0f), 0.0f);
+    for (uint i = 0u; i < params.tapCount; ++i) {
+        vec2 offset = reach * discTap(i, params.tapCount, turn);
+        Tap tap = takeTap(centre + offset);
+        if (tap.confusion >= -kSharpPx) {
+            near.behind += vec4(tap.color, 1.0f);
+            continue;
+        }
+        float radius = -tap.confusion;
+        float weight = coverRim(radius, length(offset)) / (radius * radius);
+        near.light += weight * vec4(tap.color, 1.0f);
+    }
+    // A tap stands for the area of the disc by their number, and its light for the area of its circle.
+    near.covered = saturate(near.light.w * reach * reach / float(params.tapCount));
+    return near;
+}
+
+/// \param radius the pixel's own, 0 or more
+vec4 gatherFar(vec2 centre, float radius, float turn) {
+    vec4 light = vec4(0.0f);
+    for (uint i = 0u; i < params.tapCount; ++i) {
+        vec2 offset = radius * discTap(i, params.tapCount, turn);
+        Tap tap = takeTap(centre + offset);
+        if (tap.confusion < -kSharpPx) continue;
+        float spread = min(max(tap.confusion, 0.0f), radius);
+        light += coverRim(spread, length(offset)) * vec4(tap.color, 1.0f);
+    }
+    return light;
+}
+
+/// What lies behind the near field. \param radius the pixel's own, signed
+vec3 findFar(vec2 centre, float radius, float turn, NearField near, vec3 own) {
+    if (radius < -kSharpPx)
+        return near.behind.w > 0.0f ? near.behind.rgb / near.behind.w : near.light.rgb / near.light.w;
+    if (radius <= kSharpPx) return own; // all taps lie in the pixel
+    vec4 light = gatherFar(centre, radius, turn);
+    return light.w > 1.0e-6f ? light.rgb / light.w : own;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(params.sizePx)))) return;
+    vec4 own = texelFetch(uColor, pixel, 0);
+    float reach = texelFetch(uReach, pixel / int(params.tilePx), 0).x;
+    // Nothing within reach is out of focus: the sharp colour, bit for bit.
+    if (reach < kSharpPx) {
+        imageStore(uFiltered, pixel, own);
+        return;
+    }
+    vec2 centre = vec2(pixel) + 0.5f;
+    float turn = findTurn(pixel);
+    NearField near = gatherNear(centre, reach, turn);
+    float radius = confusionRadius(params, texelFetch(uMotionDepth, pixel, 0).z);
+    vec3 color = findFar(centre, radius, turn, near, own.rgb);
+    if (near.light.w > 0.0f) color = mix(color, near.light.rgb / near.light.w, near.covered);
+    imageStore(uFiltered, pixel, vec4(storableColor(color), own.a));
+}
