@@ -105,18 +105,31 @@ core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
                                            : keepCases(chosen.sequences, arguments, chosen.name);
     if (!kept)
         return kept.error();
+    if (const Status provided = provideRooms(chosen, arguments.rooms); !provided)
+        return provided.error();
     return suite;
 }
 
+/// Whether the suite measures the method unless --methods says what it does.
+bool isWanted(const MethodInfo& method, const Suite& suite) {
+    // Their rays take longer than all others together.
+    const bool isFilm = !suite.sequences.empty();
+    if (isFilm && (method.family == game::MethodFamily::Truth || !game::findMethod(method.name)))
+        return false;
+    if (suite.hasLens)
+        return method.hasLens || method.family == game::MethodFamily::Sharp;
+    return method.lensFilter == nullptr;
+}
+
 /// All, the truth's own method included: at few instants it is a rival. For films `truth` is left
-/// out, whose rays take longer than all others together, and so are the publication's numbers.
+/// out and so are the publication's numbers; with a lens, what draws a pinhole, and without one
+/// what filters by it.
 core::Result<std::vector<const MethodInfo*>>
-chooseMethods(const BenchArguments& arguments, bool areFilms) {
+chooseMethods(const BenchArguments& arguments, const Suite& suite) {
     std::vector<const MethodInfo*> methods;
     if (arguments.methods.empty()) {
         for (const MethodInfo& method : listContenders())
-            if (!areFilms ||
-                (method.family != game::MethodFamily::Truth && game::findMethod(method.name)))
+            if (isWanted(method, suite))
                 methods.push_back(&method);
         return methods;
     }
@@ -143,7 +156,7 @@ core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
     if (!suite)
         return suite.error();
     SHUTTER_TRY(applyEdges(arguments, suite.value()));
-    auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
+    auto methods = chooseMethods(arguments, suite.value());
     if (!methods)
         return methods.error();
     auto shot = game::interpret(arguments.shot);
@@ -155,8 +168,10 @@ core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     command.add_option("scene", arguments.shot.scene, "a scene of one's own, instead of --suite");
     command.add_option(
-        "--suite", arguments.suite, "suite: paper, hard, scaling, sequence or edges"
+        "--suite", arguments.suite, "suite: paper, hard, scaling, sequence, edges or lens"
     );
+    command.add_option("--rooms", arguments.rooms, "folder of the rooms of the suite lens")
+        ->capture_default_str();
     command.add_option("--out", arguments.out, "folder for results.json and index.html")
         ->required();
     command
@@ -209,7 +224,7 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
             "--aa",
             arguments.antiAliasings,
             "how methods smooth edges, comma-separated: none, taa, box; each case is measured with "
-            "each; default: none, of the suite edges all three"
+            "each; default: none, of the suites edges and lens all three"
         )
         ->delimiter(',');
 }

@@ -24,6 +24,7 @@ struct BenchArguments {
     gpu::DeviceOptions device;
     std::string suite;
     std::filesystem::path out;
+    std::filesystem::path rooms = "../shared/scenes"; ///< of the suite lens
     std::vector<std::string> methods;
     std::vector<std::string> cases;
     std::vector<std::string> antiAliasings; ///< empty: the suite's own

@@ -8,6 +8,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/scene/lens.h"
 #include "game/options/render_arguments.h"
 #include "game/shot/surroundings.h"
 
@@ -126,6 +127,7 @@ Status CaseStage::load() {
     if (!options)
         return options.error();
     mShotOptions = std::move(options).value();
+    mShotOptions.usesLens = true;
     auto loaded = game::loadShot(mShotOptions);
     if (!loaded)
         return loaded.error();
@@ -190,6 +192,10 @@ CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, 
     return drawn.drawer->draw(
         mShot.world, picture, [&] { mProgress.advance(); }, checkpoints
     );
+}
+
+bool CaseStage::hasLens() const {
+    return scene::hasLens(mShot.world, mShot.camera);
 }
 
 bool CaseStage::isKnown(const SamplePoint& point, uint32_t repeats) const {

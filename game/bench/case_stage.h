@@ -75,6 +75,9 @@ class CaseStage {
     /// Whether everything at this point has been measured.
     [[nodiscard]] bool isKnown(const SamplePoint& point, uint32_t repeats) const;
 
+    /// What is compared is what the camera's lens sees.
+    [[nodiscard]] bool hasLens() const;
+
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }
 
     [[nodiscard]] const std::string& truthLinear() const { return mTruthLinear; }

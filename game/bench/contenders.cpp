@@ -2,6 +2,7 @@
 #include "game/bench/contenders.h"
 
 #include "game/shot/picture_drawer.h"
+#include "modules/depth_of_field/depth_of_field.h"
 #include "modules/motion_blur/settings.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,47 @@ constexpr PaperRow kPaperRows[] = {
     {"gather", "gather_paper", "gather with the numbers of the publication"},
     {"hybrid", "hybrid_paper", "hybrid with the numbers of the publication"},
 };
+
+/// A filter of the lens over the sharp picture, or beside a motion blur that knows of no lens.
+struct LensRow {
+    const char* name;
+    const char* description;
+    std::string_view filter; ///< of depth_of_field::listFilters()
+    std::string_view blur;   ///< of motion_blur::listMethods(); empty: none
+    bool filtersBlurred;
+};
+
+constexpr LensRow kLensRows[] = {
+    {"jimenez2014_lens", "depth of field: scatter as you gather", "jimenez2014", "", false},
+    {"near_far_lens", "depth of field: a near field over a far field", "near_far", "", false},
+    {"lens_then_blur", "near_far_lens, then resolved's motion blur", "near_far", "resolved", false},
+    {"blur_then_lens", "resolved's motion blur, then near_far_lens", "near_far", "resolved", true},
+};
+
+/// Instants of the motion blur beside a filter.
+constexpr uint32_t kInstantsBesideLens = 16;
+
+game::MethodInfo describeLensContender(const LensRow& row) {
+    const depth_of_field::Filter& filter = depth_of_field::getFilter(row.filter);
+    game::MethodInfo contender{
+        .name = row.name,
+        .description = row.description,
+        .publication = filter.publication,
+        .family = game::MethodFamily::Sharp,
+        .hasLens = true,
+        .lensFilter = &filter,
+        .filtersBlurred = row.filtersBlurred,
+        .sampleUnit = game::SampleUnit::Taps,
+        .defaultSamples = depth_of_field::kDefaultTaps};
+    if (row.blur.empty())
+        return contender;
+    contender.blur = &motion_blur::getMethod(row.blur);
+    contender.family = game::MethodFamily::MotionBlur;
+    contender.rays = contender.blur->rays;
+    contender.sampleUnit = contender.blur->sampleUnit;
+    contender.defaultSamples = kInstantsBesideLens;
+    return contender;
+}
 
 bool isPapers(std::string_view name) {
     for (const PaperRow& row : kPaperRows)
@@ -78,6 +120,8 @@ std::span<const game::MethodInfo> listContenders() {
                     contenders.back().description = row.description;
                 }
         }
+        for (const LensRow& row : kLensRows)
+            contenders.push_back(describeLensContender(row));
         return contenders;
     }();
     return kContenders;
@@ -142,6 +186,8 @@ game::MethodOptions makeMethodOptions(const SamplePoint& point) {
     settings.sampleCount = point.samples;
     game::MethodOptions options = game::makeMethod(*point.method, settings);
     options.samples = point.samples;
+    if (point.method->lensFilter)
+        options.lensTaps = point.method->blur ? depth_of_field::kDefaultTaps : point.samples;
     return options;
 }
 

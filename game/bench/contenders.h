@@ -14,7 +14,8 @@
 
 namespace shutter::bench {
 
-/// "sharp", "gather", "gather_paper", ... in the order of game::listMethods().
+/// "sharp", "gather", "gather_paper", ... in the order of game::listMethods(), and then the filters
+/// of the lens, which are rivals and no methods of the program.
 [[nodiscard]] std::span<const game::MethodInfo> listContenders();
 
 /// Error: lists the names of all contenders.

@@ -104,6 +104,9 @@ class Rounds {
         const SamplePoint& point = entry.point();
         if (!game::canRun(*point.method, mDevice))
             return refuse(entry, describeLack(*point.method));
+        if (mStage.hasLens() && !point.method->hasLens &&
+            point.method->family != game::MethodFamily::Sharp)
+            return refuse(entry, "it draws what a pinhole sees, not what the lens does");
         const double predicted = predict(entry);
         if (predicted > mOptions.limitSeconds) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));

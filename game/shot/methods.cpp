@@ -139,7 +139,8 @@ PassGroup groupOf(const MethodInfo& method, render::PassOwner owner) {
     case render::PassOwner::Rays:
         return method.rays != RayNeed::None ? PassGroup::Blur : PassGroup::Other;
     case render::PassOwner::Blur: // of a frame that another method drew, if this one is sharp
-        return method.family == MethodFamily::Sharp ? PassGroup::Scene : PassGroup::Blur;
+        return method.family == MethodFamily::Sharp && !method.lensFilter ? PassGroup::Scene
+                                                                          : PassGroup::Blur;
     case render::PassOwner::Other:
         return PassGroup::Other;
     case render::PassOwner::Display:

@@ -6,6 +6,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/frame_statistics.h"
+#include "modules/depth_of_field/filters.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/settings.h"
 
@@ -32,6 +33,9 @@ struct MethodInfo {
     const motion_blur::Method* blur = nullptr; ///< null unless the family is MotionBlur
     RayNeed rays = RayNeed::None;
     bool hasLens = false; ///< it draws what the camera's lens sees; false: what a pinhole does
+    /// Makes a pinhole's picture what the lens sees; null: nothing does, or the method itself.
+    const depth_of_field::Filter* lensFilter = nullptr;
+    bool filtersBlurred = false; ///< the filter gets the blurred picture; false: the sharp one
     /// What `--samples` counts, which trades time for error; empty: the method takes no samples.
     std::optional<SampleUnit> sampleUnit{};
     uint32_t defaultSamples = 0;     ///< 0 without a sample unit
@@ -74,8 +78,8 @@ enum class PassGroup : uint8_t {
     Display, ///< what brings the linear picture to the window or to memory
 };
 
-/// `sharp` adds nothing to a picture. The scene counts as the method's own if it draws that in its
-/// own way (many frames, rays alone); rays do if it traces any.
+/// `sharp` adds nothing to a picture unless a lens filters it. The scene counts as the method's own
+/// if it draws that in its own way (many frames, rays alone); rays do if it traces any.
 [[nodiscard]] PassGroup groupOf(const MethodInfo& method, render::PassOwner owner);
 
 /// GPU milliseconds of the passes of PassGroup::Blur.

@@ -59,8 +59,11 @@ PictureRequest makePicture(
 ) {
     PictureRequest picture;
     picture.frame.view = makeView(shot, options, seconds);
-    picture.frame.view.usesLens =
+    const bool seesLens =
         options.usesLens && method.method->hasLens && scene::hasLens(shot.world, shot.camera);
+    // A filter takes what a pinhole sees.
+    picture.filtersLens = seesLens && method.method->lensFilter != nullptr;
+    picture.frame.view.usesLens = seesLens && !picture.filtersLens;
     picture.method = method;
     picture.pixel = options.pixel;
     picture.seed = options.seed;

@@ -10,6 +10,7 @@
 #include "game/shot/shot.h"
 #include "game/shot/shot_options.h"
 #include "modules/accumulate/accumulate.h"
+#include "modules/depth_of_field/depth_of_field.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/taa/taa.h"
 #include "modules/truth/truth.h"
@@ -48,6 +49,7 @@ struct PictureRequest {
     /// The exposure's cap; nothing: the drawer measures it (measureCap).
     std::optional<scene::MotionCap> cap{};
     MethodOptions method;
+    bool filtersLens = false; ///< MethodInfo::lensFilter runs
     /// With MethodOptions::maxStepPx; nothing: the drawer measures the motion.
     std::optional<InstantChoice> instants{};
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
@@ -165,6 +167,7 @@ class PictureDrawer {
     /// Effects, made when first used, and what has been collected of the slot's picture.
     struct Slot {
         std::unique_ptr<motion_blur::MotionBlurPlugin> motionBlur;
+        std::unique_ptr<depth_of_field::DepthOfField> depthOfField;
         std::unique_ptr<taa::Taa> taa;
         std::unique_ptr<accumulate::Accumulate> accumulate;
         std::unique_ptr<truth::Truth> truth;
@@ -235,6 +238,11 @@ class PictureDrawer {
     /// Null: the method has none.
     [[nodiscard]] render::PostEffect*
     prepareEffect(const PictureRequest& request, const Part& part);
+    /// Null: the method has no filter of the lens, or the camera has no lens.
+    [[nodiscard]] render::PostEffect* prepareLensFilter(const PictureRequest& request);
+    /// The method's own effect and its filter of the lens, in their order.
+    [[nodiscard]] std::vector<render::PostEffect*>
+    prepareBlurs(const PictureRequest& request, const Part& part);
     /// Null: the picture is no raster image.
     [[nodiscard]] render::PostEffect* prepareTaa(const PictureRequest& request);
     /// All that make the picture, before its ending.

@@ -74,6 +74,26 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
     return nullptr;
 }
 
+render::PostEffect* PictureDrawer::prepareLensFilter(const PictureRequest& request) {
+    if (!request.filtersLens)
+        return nullptr;
+    Slot& slot = mSlots[request.slot];
+    if (!slot.depthOfField)
+        slot.depthOfField = std::make_unique<depth_of_field::DepthOfField>(mDevice);
+    slot.depthOfField->configure({request.method.method->lensFilter, request.method.lensTaps});
+    return slot.depthOfField.get();
+}
+
+std::vector<render::PostEffect*>
+PictureDrawer::prepareBlurs(const PictureRequest& request, const Part& part) {
+    std::vector<render::PostEffect*> effects{
+        prepareLensFilter(request), prepareEffect(request, part)};
+    if (request.method.method->filtersBlurred)
+        std::swap(effects.front(), effects.back());
+    std::erase(effects, nullptr);
+    return effects;
+}
+
 render::PostEffect* PictureDrawer::prepareTaa(const PictureRequest& request) {
     if (isSampledAnyway(*request.method.method) || isBox(request))
         return nullptr;
@@ -86,7 +106,7 @@ render::PostEffect* PictureDrawer::prepareTaa(const PictureRequest& request) {
 
 std::vector<render::PostEffect*>
 PictureDrawer::prepareEffects(const PictureRequest& request, const Part& part) {
-    std::vector<render::PostEffect*> effects{prepareEffect(request, part)};
+    std::vector<render::PostEffect*> effects = prepareBlurs(request, part);
     // Its pictures follow one another from frame to frame.
     if (part.isLastOfExposure)
         effects.insert(effects.begin(), prepareTaa(request));
@@ -226,7 +246,8 @@ core::Status PictureDrawer::submitFrameBefore(
     std::vector<render::PostEffect*> effects{prepareTaa(request)};
     // In each: what it draws over the raster itself must not be gathered as static.
     if (usesFrameBefore(request.method))
-        effects.push_back(prepareEffect(request, {}));
+        for (render::PostEffect* effect : prepareBlurs(request, {}))
+            effects.push_back(effect);
     std::erase(effects, nullptr);
     return submitFrame(
         world,
@@ -246,9 +267,7 @@ PictureDrawer::submitIntermediates(const scene::World& world, const PictureReque
     raster.isFollowed = false;
     raster.wantColor = raster.wantDisplay = raster.showsDisplay = raster.wantDump = false;
     raster.shownIntermediates.clear();
-    std::vector<render::PostEffect*> effects;
-    if (render::PostEffect* own = prepareEffect(request, {}))
-        effects.push_back(own);
+    const std::vector<render::PostEffect*> effects = prepareBlurs(request, {});
     Label label{
         .slot = request.slot,
         .isFirst = false,

@@ -75,6 +75,7 @@ struct MethodOptions {
     /// for views that use a lens (CHECKed).
     std::optional<double> maxStepPx;
     motion_blur::MotionBlurSettings motionBlur{};
+    uint32_t lensTaps = 0;            ///< of MethodInfo::lensFilter; 0: there is none
     motion_blur::BlurBudget budget{}; ///< of motionBlur
 };
 

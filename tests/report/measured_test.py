@@ -16,6 +16,7 @@ except ImportError:
     sys.exit(77)
 
 SCHEMA = pathlib.Path(__file__).parents[2] / "game/bench/results.schema.json"
+ROOMS = pathlib.Path(__file__).parents[3] / "shared/scenes"
 SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
 ON_SOFTWARE = ["--device", "llvmpipe"]
 
@@ -79,6 +80,24 @@ class Measured(unittest.TestCase):
                             if m["method"] == "resolved" and m["isDefault"])
                        for case in (none, taa, box)]
             self.assertEqual(reached, sorted(reached), metric)
+
+    def test_what_a_lens_sees(self):
+        if not (ROOMS / "pink-room").exists():
+            self.skipTest("the rooms lie beside the project")
+        methods = ["sharp", "near_far_lens", "lens_then_blur", "blur_then_lens"]
+        results = self.measure("--suite", "lens", "--case", "joint", "--rooms", str(ROOMS), "--aa", "box",
+                               "--methods", ",".join(["gather", *methods]), size="64x36", truth_samples=32)
+        self.validate(results)
+        self.assertEqual(results["settings"]["pixel"], "box")
+        for case in results["cases"]:
+            reached = {m["method"]: m["metrics"]["linearPsnr"] for m in case["measurements"] if m["isDefault"]}
+            self.assertEqual(list(reached), methods)
+            # Most of the blur is the ball's motion.
+            for both in ("lens_then_blur", "blur_then_lens"):
+                self.assertGreater(reached[both], reached["near_far_lens"] + 3)
+            self.assertGreater(reached["near_far_lens"], reached["sharp"])
+            self.assertEqual({s["method"] for s in case["skipped"]}, {"gather"})
+            self.assertIn("pinhole", case["skipped"][0]["reason"])
 
     def test_a_film_against_the_mean_over_the_pixel(self):
         results = self.measure("--suite", "sequence", "--case", "spin-play", "--frames", "2",

@@ -3,8 +3,10 @@
 
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/hard_cases.h"
+#include "assets/generator/lens_shots.h"
 #include "assets/generator/scaling_scenes.h"
 #include "assets/generator/scenes.h"
+#include "engine/core/log.h"
 #include "game/bench/suites/courtyard_flight.h"
 #include "game/bench/suites/gallery_script.h"
 #include "game/bench/suites/rally_flight.h"
@@ -14,6 +16,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <system_error>
 
 namespace shutter::bench {
 
@@ -30,6 +33,7 @@ constexpr std::array kSuites = {
     SuiteRow{"scaling", makeScalingSuite},
     SuiteRow{"sequence", makeSequenceSuite},
     SuiteRow{"edges", makeEdgesSuite},
+    SuiteRow{"lens", makeLensSuite},
 };
 
 /// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
@@ -356,6 +360,54 @@ Suite makeEdgesSuite() {
         suite.cases.push_back(std::move(shot));
     }
     return suite;
+}
+
+Suite makeLensSuite() {
+    Suite suite;
+    suite.name = "lens";
+    suite.repeats = 3;
+    suite.limitSeconds = 60.0;
+    suite.maxRays = 16;
+    suite.hasLens = true;
+    suite.pixel = extract::PixelModel::Box;
+    suite.antiAliasings = {
+        game::AntiAliasing::None, game::AntiAliasing::Taa, game::AntiAliasing::Box};
+    for (const generator::LensShot& from : generator::listLensShots()) {
+        Case shot;
+        shot.name = from.name;
+        shot.title = from.title;
+        shot.description = from.description;
+        shot.room = from.room;
+        shot.furnish = from.furnish;
+        shot.shot.camera = generator::kLensCamera;
+        shot.shot.clips = {"none"}; // the rooms' own, which would add to the shot's motion
+        shot.shot.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
+        shot.shot.fps = findFilmRate(generator::kExposureSeconds);
+        suite.cases.push_back(std::move(shot));
+    }
+    return suite;
+}
+
+core::Status provideRooms(Suite& suite, const std::filesystem::path& rooms) {
+    std::erase_if(suite.cases, [&](Case& shot) {
+        if (shot.room.empty())
+            return false;
+        const std::filesystem::path room = rooms / shot.room;
+        std::error_code failure;
+        if (!std::filesystem::is_regular_file(room, failure)) {
+            core::logWarning("case {} is left out: there is no '{}'", shot.name, room.string());
+            return true;
+        }
+        shot.writeScene = makeWriter([room, furnish = shot.furnish] {
+            generator::GltfWriter writer = generator::GltfWriter::open(room);
+            furnish(writer);
+            return writer;
+        });
+        return false;
+    });
+    if (suite.cases.empty() && suite.axes.empty() && suite.sequences.empty())
+        return core::makeError("--rooms: '{}' has none of the suite's rooms", rooms.string());
+    return {};
 }
 
 std::string nameAntiAliasing(game::AntiAliasing antiAliasing) {

@@ -23,8 +23,12 @@ struct Case {
     std::string description;
     game::ShotArguments shot;
     std::optional<game::PictureSize> size; ///< empty: the run's size
-    /// Writes the scene to a file; empty where `shot.scene` names one that is there.
+    /// Writes the scene to a file; empty where `shot.scene` names one that is there, and where
+    /// provideRooms() has yet to set it.
     std::function<core::Status(const std::filesystem::path&)> writeScene;
+    /// Binary glTF file that the scene is made from, relative to the folder of rooms; empty: none.
+    std::string room;
+    void (*furnish)(generator::GltfWriter& writer) = nullptr; ///< what is added to `room`
 };
 
 /// A point of a scaling curve.
@@ -67,6 +71,7 @@ struct Suite {
     uint32_t repeats = 7;       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
     uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
+    bool hasLens = false;       ///< its cameras have lenses, which all but `sharp` draw
     /// Each case is drawn with each.
     std::vector<game::AntiAliasing> antiAliasings = {game::AntiAliasing::None};
 };
@@ -91,6 +96,13 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeSequenceSuite();
 /// Four shots as a camera sees them: with each anti-aliasing, against the mean over the pixel.
 [[nodiscard]] Suite makeEdgesSuite();
+
+/// Shots that a lens sees, against the mean over lens, exposure and pixel.
+[[nodiscard]] Suite makeLensSuite();
+
+/// Sets Case::writeScene of the cases that are made from a room, and leaves out, with a warning,
+/// those whose room is not in the folder. Error: no case is left.
+[[nodiscard]] core::Status provideRooms(Suite& suite, const std::filesystem::path& rooms);
 
 /// "none", "taa" or "box".
 [[nodiscard]] std::string nameAntiAliasing(game::AntiAliasing antiAliasing);

@@ -13,6 +13,7 @@
 #include "game/bench/sequence_plan.h"
 #include "game/bench/suites/suite.h"
 #include "game/bench/truth_cache.h"
+#include "modules/depth_of_field/depth_of_field.h"
 #include "tests/support/temp_folder.h"
 
 #include <CLI/CLI.hpp>
@@ -34,7 +35,7 @@ namespace {
 using image::Image;
 
 TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
-    for (const char* name : {"paper", "hard", "scaling", "edges"}) {
+    for (const char* name : {"paper", "hard", "scaling", "edges", "lens"}) {
         auto suite = findSuite(name);
         ASSERT_TRUE(suite.ok()) << name;
         std::vector<Case> cases = suite.value().cases;
@@ -103,6 +104,28 @@ TEST(Suites, PixelOverridesThatOfASuite) {
         const auto task = interpretBench(arguments);
         ASSERT_TRUE(task.ok()) << words << ": " << task.error().message;
         EXPECT_EQ(task.value().suite.cases.front().shot.pixel, pixel) << words;
+    }
+}
+
+TEST(Suites, ShotsWhoseRoomIsNotThereAreLeftOut) {
+    const test::TempFolder folder;
+    Suite none = makeLensSuite();
+    const core::Status refused = provideRooms(none, folder.path());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("--rooms"), std::string::npos);
+
+    Suite suite = makeLensSuite();
+    const std::string room = suite.cases.front().room;
+    const auto isOfRoom = [&](const Case& shot) { return shot.room == room; };
+    const auto count = std::count_if(suite.cases.begin(), suite.cases.end(), isOfRoom);
+    folder.write(room, "no glTF");
+    ASSERT_TRUE(provideRooms(suite, folder.path()).ok());
+    ASSERT_EQ(suite.cases.size(), size_t(count));
+    for (const Case& shot : suite.cases) {
+        EXPECT_EQ(shot.room, room);
+        const core::Status written = shot.writeScene(folder.path() / "out.glb");
+        ASSERT_FALSE(written.ok());
+        EXPECT_NE(written.error().message.find(room), std::string::npos);
     }
 }
 
@@ -194,6 +217,20 @@ TEST(Contenders, AreTheMethodsAndThePapersWithItsNumbers) {
     const auto missing = findContender("nosuch");
     ASSERT_FALSE(missing.ok());
     EXPECT_NE(missing.error().message.find("gather_paper"), std::string::npos);
+}
+
+TEST(Contenders, AFilterOfTheLensTakesTapsAndBesideAMotionBlurItsDefault) {
+    const game::MethodInfo* alone = findContender("near_far_lens").value();
+    EXPECT_TRUE(alone->hasLens);
+    EXPECT_EQ(makeMethodOptions({alone, 16, false}).lensTaps, 16u);
+    for (const char* name : {"lens_then_blur", "blur_then_lens"}) {
+        const game::MethodInfo* both = findContender(name).value();
+        const game::MethodOptions options = makeMethodOptions({both, 8, false});
+        EXPECT_EQ(options.lensTaps, depth_of_field::kDefaultTaps);
+        EXPECT_EQ(options.motionBlur.sampleCount, 8u);
+        EXPECT_STREQ(options.motionBlur.method->name, "resolved");
+    }
+    EXPECT_EQ(makeMethodOptions({findContender("resolved").value(), 8, false}).lensTaps, 0u);
 }
 
 std::vector<const game::MethodInfo*> findMethods(std::initializer_list<const char*> names) {
