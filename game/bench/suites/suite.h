@@ -71,7 +71,7 @@ struct Suite {
     uint32_t repeats = 7;       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
     uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
-    bool hasLens = false;       ///< its cameras have lenses, which all but `sharp` draw
+    bool hasLens = false;       ///< its cameras have lenses: pinholes are measured only if named
     /// Each case is drawn with each.
     std::vector<game::AntiAliasing> antiAliasings = {game::AntiAliasing::None};
 };

@@ -38,6 +38,14 @@ TEST(PassGroups, SharpAddsNothing) {
         EXPECT_NE(groupIn("sharp", owner), PassGroup::Blur);
 }
 
+TEST(PassGroups, AFilterOfTheLensIsWhatASharpMethodAdds) {
+    MethodInfo filtered = *findMethod("sharp").value();
+    filtered.lensFilter = &depth_of_field::getFilter("near_far");
+    EXPECT_EQ(groupOf(filtered, PassOwner::Blur), PassGroup::Blur);
+    EXPECT_EQ(groupOf(filtered, PassOwner::Scene), PassGroup::Scene);
+    EXPECT_EQ(groupIn("sharp", PassOwner::Blur), PassGroup::Scene);
+}
+
 TEST(PassGroups, NoMethodPaysForAnEffectThatClaimsNothing) {
     for (const MethodInfo& method : listMethods())
         EXPECT_EQ(groupOf(method, PlainEffect().owner()), PassGroup::Other) << method.name;
