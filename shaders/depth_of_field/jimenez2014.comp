@@ -11,7 +11,6 @@
 
 const float kDiagonalPx = 0.70710678f; // half a pixel's: a sharp point covers its pixel
 const float kClassPx = 2.0f; // difference of radii over which the classes exchange
-const float kTurnArea = 3.14159265f;
 
 /// Weighted colours of the two classes; w is the sum of weights.
 struct Classes {
@@ -23,7 +22,7 @@ struct Classes {
 /// \param area in pixels that the tap stands for, in units of an outer tap's
 void add(inout Classes sums, Tap tap, float distancePx, float nearest, float area) {
     float radius = max(abs(tap.confusion), kDiagonalPx);
-    float density = 1.0f / (kTurnArea * radius * radius);
+    float density = 1.0f / (kUnitDiscArea * radius * radius);
     float weight = area * density * saturate(radius - distancePx + 1.0f);
     float behind = smoothstep(0.0f, kClassPx, abs(tap.confusion - nearest));
     vec4 light = weight * vec4(tap.color, 1.0f);
@@ -43,7 +42,7 @@ void main() {
     }
     vec2 centre = vec2(pixel) + 0.5f;
     float nearest = confusionRadius(params, reach.y);
-    float tapArea = kTurnArea * reach.x * reach.x / float(params.tapCount);
+    float tapArea = kUnitDiscArea * reach.x * reach.x / float(params.tapCount);
     float turn = findTurn(pixel);
     Classes sums = Classes(vec4(0.0f), vec4(0.0f));
     // The pixel itself stands for its own area.

@@ -17,8 +17,18 @@ struct NearField {
     float covered; // share of the pixel
 };
 
+/// Light of a tap of the near field. \param distancePx from the pixel
+vec4 spreadNear(Tap tap, float distancePx) {
+    float radius = -tap.confusion;
+    return coverRim(radius, distancePx) / (radius * radius) * vec4(tap.color, 1.0f);
+}
+
 NearField gatherNear(vec2 centre, float reach, float turn) {
     NearField near = NearField(vec4(0.0f), vec4(0.0f), 0.0f);
+    // The pixel itself stands for its own area: taps far apart miss a circle that is little larger.
+    Tap own = takeTap(centre);
+    float tapArea = kUnitDiscArea * reach * reach / float(params.tapCount);
+    if (own.confusion < -kSharpPx) near.light = spreadNear(own, 0.0f) / tapArea;
     for (uint i = 0u; i < params.tapCount; ++i) {
         vec2 offset = reach * discTap(i, params.tapCount, turn);
         Tap tap = takeTap(centre + offset);
@@ -26,12 +36,10 @@ NearField gatherNear(vec2 centre, float reach, float turn) {
             near.behind += vec4(tap.color, 1.0f);
             continue;
         }
-        float radius = -tap.confusion;
-        float weight = coverRim(radius, length(offset)) / (radius * radius);
-        near.light += weight * vec4(tap.color, 1.0f);
+        near.light += spreadNear(tap, length(offset));
     }
     // A tap stands for the area of the disc by their number, and its light for the area of its circle.
-    near.covered = saturate(near.light.w * reach * reach / float(params.tapCount));
+    near.covered = saturate(near.light.w * tapArea / kUnitDiscArea);
     return near;
 }
 
