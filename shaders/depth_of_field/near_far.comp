@@ -25,10 +25,12 @@ vec4 spreadNear(Tap tap, float distancePx) {
 
 NearField gatherNear(vec2 centre, float reach, float turn) {
     NearField near = NearField(vec4(0.0f), vec4(0.0f), 0.0f);
-    // The pixel itself stands for its own area: taps far apart miss a circle that is little larger.
+    // The pixel itself stands for its own area where taps far apart miss it, and with it a circle that
+    // is little larger.
     Tap own = takeTap(centre);
     float tapArea = kUnitDiscArea * reach * reach / float(params.tapCount);
-    if (own.confusion < -kSharpPx) near.light = spreadNear(own, 0.0f) / tapArea;
+    float missed = saturate(1.0f - 1.0f / tapArea);
+    if (own.confusion < -kSharpPx) near.light = missed / tapArea * spreadNear(own, 0.0f);
     for (uint i = 0u; i < params.tapCount; ++i) {
         vec2 offset = reach * discTap(i, params.tapCount, turn);
         Tap tap = takeTap(centre + offset);
