@@ -50,6 +50,9 @@ SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;
 /// What the raster holds of it says nothing about the exposure.
 SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
 
+/// Sets of instants with a lens, which pixels take turns in: one for each of 4 x 4.
+SHUTTER_CONST uint kLensSets = 16u;
+
 /// The entity is not among this frame's rows, or it is not known which one it is.
 SHUTTER_CONST uint kNoRasterRow = 0xFFFFFFFFu;
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/lens_pairs.h"
+
+#include "engine/core/check.h"
+#include "shaders/common/instant_motion_shared.h"
+#include "shaders/common/sampling.glsl"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace shutter::extract {
+
+namespace {
+
+/// Of an index below 2^32 as a fraction: van der Corput's sequence.
+double reverseBits(uint32_t index) {
+    return shader::sobolPoint(index).x * 0x1p-32;
+}
+
+/// Of one set. Sobol's first two dimensions in the lens with the index as time are a (0, m, 3)-net;
+/// aligned blocks of the sequence are nets, and so are runs of blocks. Where a block is not whole,
+/// its places move within their order along each axis until they are even again, about the middle.
+std::vector<math::dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
+    const uint32_t block = std::bit_ceil(samples);
+    const double half = 0.5 / (block * shader::kLensSets);
+    std::vector<math::dvec2> places;
+    for (uint32_t i = 0; i < samples; ++i) {
+        const math::uvec2 point(shader::sobolPoint(set * block + i));
+        places.push_back(math::dvec2(point) * 0x1p-32 + half);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        std::vector<uint32_t> order(samples);
+        std::iota(order.begin(), order.end(), 0u);
+        std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            return places[a][axis] < places[b][axis];
+        });
+        for (uint32_t rank = 0; rank < samples; ++rank) {
+            double& place = places[order[rank]][axis];
+            place = (rank + (place * block - std::floor(place * block))) / samples;
+        }
+    }
+    return places;
+}
+
+} // namespace
+
+std::vector<LensPair> spreadLensPairs(uint32_t samples) {
+    SHUTTER_CHECK(samples > 0, "no samples");
+    std::vector<LensPair> pairs(size_t(samples) * shader::kLensSets);
+    for (uint32_t set = 0; set < shader::kLensSets; ++set) {
+        const std::vector<math::dvec2> places = spreadPlaces(samples, set);
+        const double inStratum = reverseBits(set) + 0.5 / shader::kLensSets;
+        for (uint32_t i = 0; i < samples; ++i)
+            pairs[i * shader::kLensSets + set] = {(i + inStratum) / samples, places[i]};
+    }
+    return pairs;
+}
+
+} // namespace shutter::extract

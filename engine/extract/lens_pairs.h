@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Where the samples of a picture lie in the exposure and in the lens together.
+#pragma once
+
+#include "engine/math/math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::extract {
+
+/// A time of the exposure and a place of the lens.
+struct LensPair {
+    double light = 0.0;          ///< share of the exposure's light that comes before, (0, 1)
+    math::dvec2 place{0.0, 0.0}; ///< ViewRequest::lensPlace
+};
+
+/// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k. Each set
+/// is spread evenly over time and lens together, and so are four that follow one another (4 n to 4
+/// n + 3), and all. \param samples of a set, above 0
+[[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples);
+
+} // namespace shutter::extract

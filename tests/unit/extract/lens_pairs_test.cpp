@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/lens_pairs.h"
+#include "shaders/common/instant_motion_shared.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace shutter::extract {
+namespace {
+
+constexpr uint32_t kSets = shader::kLensSets;
+
+/// Which of count x rows equal parts of the lens a place is in.
+uint32_t partOf(const math::dvec2& place, uint32_t columns, uint32_t rows) {
+    return uint32_t(place.y * rows) * columns + uint32_t(place.x * columns);
+}
+
+TEST(LensPairs, EachSetHasOnePlaceInEachPartOfTheLensAndOneTimeInEachOfTheExposure) {
+    for (const uint32_t samples : {4u, 16u, 32u}) {
+        const auto pairs = spreadLensPairs(samples);
+        ASSERT_EQ(pairs.size(), size_t(samples) * kSets);
+        for (uint32_t set = 0; set < kSets; ++set)
+            for (uint32_t columns = 1; columns <= samples; columns *= 2) {
+                std::set<uint32_t> parts;
+                for (uint32_t i = 0; i < samples; ++i) {
+                    const LensPair& pair = pairs[i * kSets + set];
+                    parts.insert(partOf(pair.place, columns, samples / columns));
+                    EXPECT_EQ(uint32_t(pair.light * samples), i);
+                }
+                EXPECT_EQ(parts.size(), samples) << set << " " << columns;
+            }
+    }
+}
+
+TEST(LensPairs, AllSetsTogetherAreSpreadAsEvenlyAsOneOfSoManySamples) {
+    constexpr uint32_t kSamples = 16;
+    const auto pairs = spreadLensPairs(kSamples);
+    std::set<uint32_t> parts;
+    std::set<uint32_t> times;
+    for (const LensPair& pair : pairs) {
+        parts.insert(partOf(pair.place, kSamples, kSets));
+        times.insert(uint32_t(pair.light * kSamples * kSets));
+    }
+    EXPECT_EQ(parts.size(), pairs.size());
+    EXPECT_EQ(times.size(), pairs.size());
+}
+
+TEST(LensPairs, SetsOfAnyNumberOfSamplesLieAboutTheMiddleOfTheLens) {
+    for (const uint32_t samples : {1u, 7u, 15u, 24u, 32u}) {
+        const auto pairs = spreadLensPairs(samples);
+        for (uint32_t set = 0; set < kSets; ++set) {
+            math::dvec2 mean(0.0);
+            for (uint32_t i = 0; i < samples; ++i) {
+                const LensPair& pair = pairs[i * kSets + set];
+                EXPECT_GT(pair.light, 0.0);
+                EXPECT_LT(pair.light, 1.0);
+                mean += pair.place / double(samples);
+            }
+            EXPECT_NEAR(mean.x, 0.5, 0.5 / samples) << samples << " " << set;
+            EXPECT_NEAR(mean.y, 0.5, 0.5 / samples) << samples << " " << set;
+        }
+    }
+}
+
+} // namespace
+} // namespace shutter::extract
