@@ -3,9 +3,11 @@
 
 #include "engine/core/check.h"
 #include "engine/extract/frame_view.h"
+#include "engine/extract/lens_pairs.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
+#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <array>
@@ -41,10 +43,10 @@ class Builder {
     )
         : mWorld(world), mView(view), mFrame(frame),
           mCamera(world.registry.get<scene::Camera>(view.camera)), mMotion(motion) {
-        for (uint32_t i = 0; i < instantCount; ++i)
-            mTimes.push_back(scene::invertLight(view.exposure, (i + 0.5) / instantCount));
-        for (const double s : mTimes)
-            mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
+        if (view.usesLens)
+            takePairs(instantCount);
+        else
+            takeTimes(instantCount);
         mRasterPicture = pictureFromWorldAt(mWorld, mView, mMotion, view.exposure.rasterTime);
         mShapeOfRow.assign(mFrame.worldFromObject.size(), kNoRow);
         for (uint32_t i = 0; i < mFrame.deformed.size(); ++i)
@@ -55,6 +57,8 @@ class Builder {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
+        if (mView.usesLens)
+            describeLens(tables);
         tables.record = makeRasterRecord(mWorld, mView, mMotion, mFrame, mView.exposure.rasterTime);
         tables.raster = describeRaster(tables.rasterWays);
         if (last && isOfFrameBefore(mWorld, mView, mMotion, *last))
@@ -67,6 +71,40 @@ class Builder {
     }
 
   private:
+    void takeTimes(uint32_t count) {
+        for (uint32_t i = 0; i < count; ++i)
+            mTimes.push_back(scene::invertLight(mView.exposure, (i + 0.5) / count));
+        for (const double s : mTimes)
+            mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
+    }
+
+    /// Each instant has a place of the lens. From there the picture is the pinhole's, sheared.
+    void takePairs(uint32_t count) {
+        SHUTTER_CHECK_EQ(count % shader::kLensSets, 0u);
+        ViewRequest view = mView;
+        for (const LensPair& pair : spreadLensPairs(count / shader::kLensSets)) {
+            const double s = scene::invertLight(mView.exposure, pair.light);
+            view.lensPlace = pair.place;
+            const dmat4 picture = pictureFromWorldAt(mWorld, view, mMotion, s);
+            const dmat4 shear =
+                picture * glm::inverse(pictureFromWorldAt(mWorld, mView, mMotion, s));
+            mTimes.push_back(s);
+            mPictures.push_back(picture);
+            mLens.emplace_back(math::dvec2(shear[2]), math::dvec2(shear[3]));
+        }
+    }
+
+    void describeLens(InstantTables& tables) {
+        tables.lens = std::move(mLens);
+        const double s = mView.exposure.rasterTime;
+        const scene::CameraLens lens = mMotion.cameraLens(s);
+        const double yFov = mMotion.cameraYFov(s);
+        const double pixelsPerUnit =
+            mView.height / (2.0 * computeHalfExtents(mCamera, yFov, mView).y);
+        const double radius = scene::computeLensRadius(lens, yFov) * pixelsPerUnit;
+        tables.confusion = math::vec2(math::dvec2(radius / lens.focusDistance, radius));
+    }
+
     RasterRecord makeSecondRecord(const InstantFrame& second) const {
         ViewRequest view = mView;
         view.jitterPx = second.jitterPx;
@@ -291,7 +329,8 @@ class Builder {
     const scene::Camera& mCamera;
     const scene::ExposureMotion& mMotion;
     std::vector<double> mTimes;
-    std::vector<dmat4> mPictures; ///< one per instant
+    std::vector<dmat4> mPictures;  ///< one per instant
+    std::vector<math::vec4> mLens; ///< the same; empty: a pinhole
     dmat4 mRasterPicture{1.0};
     std::vector<uint32_t> mShapeOfRow; ///< index into ExtractedFrame::deformed, or kNoRow
     std::optional<ExposurePictures> mWayPictures; ///< at kWayTimes

@@ -38,7 +38,8 @@ struct InstantFrame {
 /// \param view its jitter is that of the colours that the layers hold: none, where an effect has
 /// taken the raster's out of them
 /// \param motion of the view's exposure
-/// \param instantCount above 0
+/// \param instantCount above 0; with ViewRequest::usesLens spreadLensPairs() has as many pairs, in
+/// that order
 /// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
 /// same camera, in the same size and without a cut in between; of what has appeared, was teleported
 /// or has another mesh, nothing counts

@@ -16,8 +16,8 @@ struct LensPair {
 };
 
 /// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k. Each set
-/// is spread evenly over time and lens together, and so are four that follow one another (4 n to 4
-/// n + 3), and all. \param samples of a set, above 0
+/// is spread evenly over time and lens together, and so are all, and those from k = 4 n to 4 n + 3.
+/// \param samples of a set, above 0
 [[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples);
 
 } // namespace shutter::extract

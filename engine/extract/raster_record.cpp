@@ -22,10 +22,10 @@ dmat4 pictureFromWorldAt(
     double s
 ) {
     const auto& camera = world.registry.get<scene::Camera>(view.camera);
-    const dmat4 clip = makeProjection(camera, motion.cameraYFov(s), view);
+    const CameraPose pose = placeCamera(motion, camera, view, s);
     const math::uvec2 sizePx(view.width, view.height);
-    return math::pictureFromView(clip, sizePx, view.jitterPx) *
-           glm::inverse(motion.worldFromCamera(s));
+    return math::pictureFromView(pose.clipFromView, sizePx, view.jitterPx) *
+           glm::inverse(pose.worldFromView);
 }
 
 RasterRecord makeRasterRecord(

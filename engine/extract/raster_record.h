@@ -47,7 +47,8 @@ struct RasterRecord {
 /// Those whose blended surfaces are not in the frame's raster, in order.
 [[nodiscard]] std::vector<ecs::Entity> listLayerEntities(const ExtractedFrame& frame);
 
-/// Picture space (layer_tables.h) at shutter time `s` from the world.
+/// Picture space (layer_tables.h) at shutter time `s` from the world, as ViewRequest::lensPlace has
+/// it.
 /// \param motion of the view's exposure
 [[nodiscard]] math::dmat4 pictureFromWorldAt(
     const scene::World& world,

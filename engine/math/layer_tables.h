@@ -34,6 +34,8 @@ struct InstantLayers {
     std::optional<LayerTables> second; ///< of the exposure's other end; nothing: there is none
     std::optional<LayerTables> last;   ///< nothing: the last raster says nothing about this frame
     std::vector<float> times;          ///< shutter time of each instant, [0, 1]
+    std::vector<vec4> lens;            ///< InstantMotions::lens; empty: there is none
+    vec2 confusion{0.0f};              ///< InstantMotions::confusion
     bool isPerspective = true;         ///< the camera is, at every instant; false: orthographic
 };
 

@@ -53,7 +53,7 @@ findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices
 /// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
 
-/// "denoised, accumulate or truth": the methods that have a lens.
+/// "resolved, adaptive, denoised, accumulate or truth": the methods that have a lens.
 /// \param before the last one: "or" or "and"
 [[nodiscard]] std::string listLensMethods(std::string_view before);
 

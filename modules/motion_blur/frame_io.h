@@ -57,8 +57,11 @@ using DrawWays = std::function<graph::ImageHandle(
 /// Where the surfaces of this frame's rasters, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
-    VkDeviceAddress table = 0;     ///< shader::InstantMotions (common/instant_motion_shared.h)
-    uint32_t instantCount = 0;     ///< countInstants() (settings.h)
+    VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
+    uint32_t instantCount = 0; ///< countInstants() (settings.h)
+    /// Each instant has a place of the lens (extract::spreadLensPairs()), of which the raster is
+    /// taken from the middle.
+    bool hasLens = false;
     bool hasLast = false;          ///< of the raster that `history` keeps or `lent` is, too
     std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
     /// A tile may see more entities that move than its list holds (mayCrowdTiles()).

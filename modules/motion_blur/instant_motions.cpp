@@ -87,6 +87,7 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     std::vector<shader::InstantMotions> head(1);
     const VkDeviceSize headAt = layout.add(head);
     const VkDeviceSize times = layout.add(layers.times);
+    const VkDeviceSize lens = layout.add(layers.lens);
     const PlacedLayer raster = place(layout, layers.raster);
     std::optional<PlacedLayer> second;
     if (layers.second)
@@ -113,6 +114,11 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
         head[0].lastRows = writeRasterRows(buffer, *last);
     }
     head[0].times = gpu::splitAddress(buffer.address() + times);
+    if (!layers.lens.empty()) {
+        buffer.write(std::span<const glm::vec4>(layers.lens), lens);
+        head[0].lens = gpu::splitAddress(buffer.address() + lens);
+    }
+    head[0].confusion = layers.confusion;
     head[0].isPerspective = layers.isPerspective ? 1 : 0;
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);
     return buffer.address() + headAt;

@@ -77,7 +77,7 @@ struct Method {
     /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced, unless
     /// MotionBlurInputs::motionIsCameras.
     bool readsCamera = false;
-    bool readsLens = false; ///< its rays leave the camera's lens where ViewRequest::usesLens says
+    bool readsLens = false; ///< samples have places in the lens, with ViewRequest::usesLens
     bool readsInstantMotions = false; ///< MotionBlurInputs::instantMotions is an input
     bool blursObjects = true;         ///< false: only the camera's own motion is blurred
     bool countsBlocks = true;         ///< its filters go over SharedPasses' lists of blocks

@@ -286,7 +286,9 @@ uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height) {
     return settings.tileSizePx > 0 ? settings.tileSizePx : std::clamp(height / 12u, 40u, 256u);
 }
 
-uint32_t countInstants(const MotionBlurSettings& settings) {
+uint32_t countInstants(const MotionBlurSettings& settings, bool hasLens) {
+    if (hasLens)
+        return settings.sampleCount * shader::kLensSets;
     const bool hasNoise = settings.instantNoise != InstantNoise::Off;
     return settings.sampleCount * (hasNoise ? shader::kInstantSets : 1u);
 }

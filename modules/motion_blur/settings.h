@@ -107,8 +107,9 @@ complete(const MotionBlurSettings& settings, bool knowsMotions = true);
 [[nodiscard]] uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height);
 
 /// Instants of the exposure that the pixels choose theirs from: sampleCount, and several times as
-/// many with noise. \param settings complete()
-[[nodiscard]] uint32_t countInstants(const MotionBlurSettings& settings);
+/// many with noise or a lens. \param settings complete()
+/// \param hasLens each has a place of the camera's lens (InstantMotions::hasLens)
+[[nodiscard]] uint32_t countInstants(const MotionBlurSettings& settings, bool hasLens = false);
 
 /// One row per field of MotionBlurSettings, except for `method`.
 [[nodiscard]] core::SettingRows<MotionBlurSettings> listSettingRows();

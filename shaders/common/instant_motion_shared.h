@@ -37,7 +37,12 @@ struct InstantMotions {
     // frame's, or kNoRasterRow.
     uvec2 secondRows;
     uvec2 lastRows;
-    uvec2 times;        // address of float[]: shutter time of each instant
+    uvec2 times; // address of float[]: shutter time of each instant
+    // Address of vec4[]: how far each instant's place of the lens moves what is seen, pixels. What
+    // a pinhole in its middle sees at depth z is seen xy + zw / z from there. 0: there is no lens.
+    uvec2 lens;
+    // Of the lens at the raster's time: depth z has the circle of confusion 2 |x - y / z|, pixels.
+    vec2 confusion;
     uint isPerspective; // 1: the camera is; 0: orthographic
     uint padding0;
 };
@@ -52,6 +57,8 @@ SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
 
 /// Sets of instants with a lens, which pixels take turns in: one for each of 4 x 4.
 SHUTTER_CONST uint kLensSets = 16u;
+/// The one of them that lies evenly about the lens's middle.
+SHUTTER_CONST uint kMiddleLensSet = 1u;
 
 /// The entity is not among this frame's rows, or it is not known which one it is.
 SHUTTER_CONST uint kNoRasterRow = 0xFFFFFFFFu;
@@ -61,7 +68,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
-static_assert(sizeof(shutter::shader::InstantMotions) == 104);
+static_assert(sizeof(shutter::shader::InstantMotions) == 120);
 #endif
 
 #endif

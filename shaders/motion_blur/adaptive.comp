@@ -22,6 +22,26 @@ layout(push_constant, scalar) uniform Push {
 layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
 layout(binding = 24) uniform accelerationStructureEXT uScene;
 
+/// On the ray's way by which it goes forward by 1.
+vec3 stepOf(ShutterRay ray) { return ray.direction / dot(ray.direction, ray.forward); }
+
+/// Through the instant's place of the lens: what that moves to `place` from where a pinhole has it.
+ShutterRay makeSampleRay(FrameRef frame, TimedRef moving, vec2 place, uint instant, float s) {
+    if (!kHasLens) return makeShutterRay(frame, moving, place, s);
+    // At depth z that is from place - xy - zw / z: a line, which leaves the camera's plane beside its
+    // middle by as much as pixels are apart at depth 1.
+    vec4 lens = lensOf(InstantMotionsRef(method.motions), instant);
+    ShutterRay ray = makeShutterRay(frame, moving, place - lens.xy, s);
+    const float kFarPx = 64.0f; // for digits
+    vec3 step_ = stepOf(ray);
+    vec3 perX = (stepOf(makeShutterRay(frame, moving, place - lens.xy + vec2(kFarPx, 0.0f), s)) - step_) / kFarPx;
+    vec3 perY = (stepOf(makeShutterRay(frame, moving, place - lens.xy + vec2(0.0f, kFarPx), s)) - step_) / kFarPx;
+    vec3 aside = -lens.z * perX - lens.w * perY;
+    ray.eye += aside;
+    ray.origin += aside;
+    return ray;
+}
+
 void main() {
     uint entryIndex = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
                       gl_LocalInvocationIndex;
@@ -34,7 +54,7 @@ void main() {
     PixelSearch search = beginSearch(pixel);
     Guesses guesses = beginGuesses(search);
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    Mean mean = Mean(vec3(0.0f), 0u);
+    Mean mean = Mean(vec3(0.0f), 0u, kFarthest);
     uint rays = 0u;
     for (uint first = 0u; first < params.sampleCount; first += 32u) {
         // Which samples first, then the rays: threads side by side trace at the same time, although
@@ -44,15 +64,19 @@ void main() {
             FrameRef frame = FrameRef(method.frame);
             TimedRef moving = TimedRef(method.timed);
             uint index = first + uint(findLSB(traced));
-            float s = timeOf(motions, instantOf(search, index));
-            ShutterRay ray = makeShutterRay(frame, moving, placeOfRay(search, index), s);
+            uint instant = instantOf(search, index);
+            float s = timeOf(motions, instant);
+            ShutterRay ray =
+                makeSampleRay(frame, moving, placeOfRay(search, index), instant, s);
             DistributedSample seen = traceDistributed(uScene, frame, moving, ray, s);
             mean.sum += storableColor(seen.radiance);
             ++mean.known;
+            if (kHasLens)
+                mean.confusionPx = min(mean.confusionPx, confusionAt(motions, seen.depth));
             ++rays;
         }
     }
     if (rays == 0u) return;
     atomicAdd(uCounters.rays, rays);
-    imageStore(uBlurred, pixel, vec4(mean.sum / float(mean.known), 1.0f));
+    imageStore(uBlurred, pixel, vec4(mean.sum / float(mean.known), alphaOf(search, mean)));
 }

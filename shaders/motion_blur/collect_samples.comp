@@ -35,7 +35,7 @@ void main() {
     ivec2 pixel = ivec2(place & 0xFFFFu, place >> 16);
     PixelSearch search = beginSearch(pixel);
     Guesses guesses = beginGuesses(search);
-    Mean mean = Mean(vec3(0.0f), 0u);
+    Mean mean = Mean(vec3(0.0f), 0u, kFarthest);
     uint firstSlot = slot;
     for (uint i = 0u; i < params.sampleCount; ++i) {
         LookedUp looked = lookUpAgain(search, pixel, i, shares, guesses);

@@ -53,7 +53,7 @@ void main() {
     ivec2 pixel = ivec2(entry.x & 0xFFFFu, entry.x >> 16);
     PixelSearch search = beginSearch(pixel);
     Guesses guesses = beginGuesses(search);
-    Mean ignored = Mean(vec3(0.0f), 0u);
+    Mean ignored = Mean(vec3(0.0f), 0u, kFarthest);
     uint traced[kMostChunks];
     uint count = 0u;
     for (uint chunk = 0u; chunk * 32u < params.sampleCount; ++chunk) {

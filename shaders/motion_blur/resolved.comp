@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 #include "motion_blur/resolved_hidden.glsl"
+#include "motion_blur/resolved_lens_color.glsl"
 
 #define SHUTTER_BLOCK_LIST_BINDING 23
 #include "motion_blur/block_list.glsl"
@@ -50,6 +51,7 @@ void main() {
     uint guessed = 0u;
     uint fromSecond = 0u;
     uint fromLast = 0u;
+    float confusionPx = kFarthest; // the least
     uint searched = params.sampleCount;
     // Rays may go to any of them, and an edge takes several also where the motion is short.
     if (!kFindsEdges && params.uniformMotionPx > 0.0f && !search.isAtEdge)
@@ -61,7 +63,8 @@ void main() {
         Seen seen = searchInstant(search, i, instant, guesses, doubt);
         vec3 color = vec3(0.0f);
         if (seen.isFound) {
-            color = colorOf(seen);
+            if (kHasLens) confusionPx = min(confusionPx, confusionOf(seen));
+            color = colorThroughLens(seen, instant);
             fromSecond += seen.layer == kSecondLayer ? 1u : 0u;
             fromLast += seen.layer == kLastLayer ? 1u : 0u;
             ++found;
@@ -81,6 +84,8 @@ void main() {
     // What nothing is known of counts as what the pixel saw else.
     uint known = found + guessed;
     vec3 color = known > 0u ? sum / float(known) : fetchColor(kRasterLayer, pixel);
-    imageStore(uBlurred, pixel, vec4(color, 1.0f));
+    float alpha = 1.0f;
+    if (kHasLens && found > 0u && search.set != kMiddleLensSet) alpha = alphaForFilter(confusionPx);
+    imageStore(uBlurred, pixel, vec4(color, alpha));
     if (kFindsEdges) listPixel(pixel, counts);
 }

@@ -30,6 +30,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ins
     float times[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LensShiftTable {
+    vec4 shifts[];
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer NoiseMask {
     float shares[];
 };
@@ -55,6 +59,14 @@ LayerMotion getLayer(InstantMotionsRef motions, uint index) {
 float timeOf(InstantMotionsRef motions, uint instant) {
     return InstantTable(motions.value.times).times[instant];
 }
+
+/// How an instant's place of the lens moves what is seen, for lensShift(). There must be a lens.
+vec4 lensOf(InstantMotionsRef motions, uint instant) {
+    return LensShiftTable(motions.value.lens).shifts[instant];
+}
+
+/// Pixels, at a depth.
+vec2 lensShift(vec4 lens, float depth) { return lens.xy + lens.zw / max(depth, kLeastDepth); }
 
 uint findMover(LayerMotion layer, uint key) {
     if (key == kSkyKey) return kSkyMover;
@@ -106,10 +118,23 @@ uint partsPerInstant(uint count) { return (kExposureParts << 16u) / max(count, k
 /// Part of the exposure that an instant belongs to.
 uint partOf(uint instant, uint partsPerInstant_) { return instant * partsPerInstant_ >> 16u; }
 
+/// The set of instants that all pixels take without noise.
+uint middleSet(ResolvedParams method) {
+    return has(method, kHasLensPlaces) ? kMiddleLensSet : method.setCount / 2u;
+}
+
+/// One of kLensSets for each of 4 x 4 pixels: four that follow one another for 2 x 2.
+uint lensSetOf(uvec2 pixel) {
+    uvec2 turn = uvec2((pixel.x ^ pixel.y) & 3u, pixel.y & 3u);
+    uint fine = (turn.x & 1u) << 1u | (turn.y & 1u);
+    return (turn.x >> 1u) << 3u | (turn.y >> 1u) << 2u | fine;
+}
+
 /// Which of the sets of instants a pixel takes.
 /// \param amount of the noise, [0, 1]; 0: the middle set
 uint findSet(ResolvedParams method, ivec2 pixel, float amount) {
     if (method.setCount == 1u) return 0u;
+    if (has(method, kHasLensPlaces)) return amount > 0.0f ? lensSetOf(uvec2(pixel)) : kMiddleLensSet;
     uvec2 at = uvec2(pixel) % kNoiseSidePx;
     float share = fract(NoiseMask(method.noise).shares[at.y * kNoiseSidePx + at.x] + method.turn);
     float sets = (0.5f + (share - 0.5f) * amount) * float(method.setCount);

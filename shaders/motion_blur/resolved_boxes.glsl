@@ -25,6 +25,16 @@ void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
     box.parts |= 1u << partOf(instant, partsPerInstant(method.instantCount));
 }
 
+/// From where the pinhole in the lens's middle sees something to where the instant's place of it does.
+void widenByLens(uint instant, vec2 depths, inout vec2 low, inout vec2 high) {
+    if (!has(method, kHasLensPlaces)) return;
+    vec4 lens = lensOf(InstantMotionsRef(method.motions), instant);
+    vec2 nearest = lensShift(lens, depths.x);
+    vec2 farthest = lensShift(lens, depths.y);
+    low += min(nearest, farthest);
+    high += max(nearest, farthest);
+}
+
 /// Tiles that a box reaches, the last ones included.
 struct TileRange {
     uvec2 from;

@@ -29,6 +29,9 @@ Displaced displace(
         vec2 displacement;
         float s = timeOf(InstantMotionsRef(method.motions), instant);
         bool isKnown = findDisplacement(index, ivec2(at), s, displacement);
+        if (kHasLens)
+            displacement +=
+                lensShift(lensOf(InstantMotionsRef(method.motions), instant), surface.depth);
         return Displaced(isKnown, at + displacement, surface.depth);
     }
     InstantMotion motion =
@@ -99,9 +102,12 @@ Seen searchCrowds(PixelSearch pixel, uint instant) {
 
 /// What stands for a sample of which nothing is known: the tap of `own_velocity`.
 vec3 fetchOwnTap(PixelSearch pixel, uint instant) {
-    float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
-    vec2 motion = textureLod(uMotionDepth, uvOf(pixel.x), 0.0f).xy;
-    return fetchColor(kRasterLayer, keepInside(ivec2(floor(pixel.x - motion * time))));
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    float time = timeOf(motions, instant) - params.rasterTime;
+    vec3 motionDepth = textureLod(uMotionDepth, uvOf(pixel.x), 0.0f).xyz;
+    vec2 displacement = motionDepth.xy * time;
+    if (kHasLens) displacement += lensShift(lensOf(motions, instant), motionDepth.z);
+    return fetchColor(kRasterLayer, keepInside(ivec2(floor(pixel.x - displacement))));
 }
 
 #endif

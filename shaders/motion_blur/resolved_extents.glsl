@@ -79,6 +79,7 @@ void addDeformed(Extent extent, uint instant, inout SeenBox box) {
     vec2 b = extent.motionHigh * time;
     vec2 low = vec2(extent.low) + min(a, b);
     vec2 high = vec2(extent.high + 1) + max(a, b);
+    widenByLens(instant, extent.depths, low, high);
     addBox(instant, low - kMarginPx, high + kMarginPx, extent.depths, box);
 }
 

@@ -47,14 +47,13 @@ bool showsHidden(PixelSearch pixel, uint key, Probe hiding, vec2 at) {
            behindSky(surface.key, surface.depth) > hiding.depth;
 }
 
-/// Walks from where a surface is hidden to where what hides it ends, up to the first pixel that shows
-/// the surface. Its color and the one at the end of the way are averaged: each of them is another place's,
-/// and the mean of two such guesses errs less than either.
+/// Walks from where a surface is hidden towards a place, up to the first pixel that shows the surface. Its
+/// color and the one at the end of the way are averaged: each of them is another place's, and the mean of
+/// two such guesses errs less than either.
 /// \param key of the hidden surface, or kStaticKey
-void walkToSeen(
-    PixelSearch pixel, uint instant, uint key, vec2 from, Probe hiding, inout Substitute best
+void walkTo(
+    PixelSearch pixel, uint key, vec2 from, vec2 end, Probe hiding, inout Substitute best
 ) {
-    vec2 end = placeOfHiding(pixel, instant, from, hiding);
     float way = distance(from, end);
     float steps = min(ceil(way), float(kWalkSteps));
     for (float step_ = 1.0f; step_ <= steps; ++step_) {
@@ -68,6 +67,15 @@ void walkToSeen(
         best = Substitute(way * share, color);
         return;
     }
+}
+
+/// Walks to where what hides the surface ends. With a lens the surface may be seen at the pixel, too, and
+/// be hidden only to the instant's place of it: it counts what lies nearer.
+void walkToSeen(
+    PixelSearch pixel, uint instant, uint key, vec2 from, Probe hiding, inout Substitute best
+) {
+    walkTo(pixel, key, from, placeOfHiding(pixel, instant, from, hiding), hiding, best);
+    if (kHasLens) walkTo(pixel, key, from, pixel.x, hiding, best);
 }
 
 /// Depth in the raster of the farthest that the tile may see of an entity.
@@ -86,6 +94,7 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
     PixelRay ray = findRay(motion.rasterFromInstant, pixel.x, pixel.perspective);
     vec2 at = placeOn(ray, alongAt(candidate, 0.5f, pixel.perspective), pixel.perspective);
+    at = withinBorder(kRasterLayer, at);
     if (!isInside(at)) return;
     Probe surface = fetchSurface(kRasterLayer, ivec2(at));
     bool isHidden = surface.key != candidate.key &&

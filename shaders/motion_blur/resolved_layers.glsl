@@ -48,6 +48,9 @@ layout(constant_id = 4) const bool kHasParts = true;
 /// Whether pixels of this frame's raster may show two surfaces.
 layout(constant_id = 5) const bool kHasEdges = false;
 
+/// Whether each instant has a place of the lens.
+layout(constant_id = 6) const bool kHasLens = false;
+
 bool isDeformed(uint mover) { return kHasParts && mover == kDeformedMover; }
 
 bool isSecond(uint layer) { return kHasSecond && layer == kSecondLayer; }
@@ -118,6 +121,13 @@ vec3 fetchColor(uint layer, ivec2 at) {
 
 bool isInside(vec2 at) {
     return all(greaterThanEqual(at, vec2(0.0f))) && all(lessThan(at, vec2(params.sizePx)));
+}
+
+/// With a lens the picture goes on as it ends: a blur that comes from beyond is as near as the border
+/// to what it shows.
+vec2 withinBorder(uint layer, vec2 at) {
+    if (!kHasLens || layer != kRasterLayer) return at;
+    return clamp(at, vec2(0.5f), vec2(params.sizePx) - 0.5f);
 }
 
 ivec2 keepInside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(params.sizePx) - 1); }

@@ -8,11 +8,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/block_plane.glsl"
 #include "motion_blur/pixel_ray.glsl"
+#include "motion_blur/resolved_lens.glsl"
 #include "motion_blur/resolved_parts.glsl"
 
 layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
 layout(constant_id = 1) const bool kHasParts = false;     // something deforms in this frame's raster
 layout(constant_id = 2) const uint kBlocksAcross = kGroupSize; // blocks of a group, across and down
+layout(constant_id = 3) const bool kHasLens = false; // each instant has a place of the lens
 /// Threads of a block, which share its instants.
 const uint kLanes = kGroupSize * kGroupSize / (kBlocksAcross * kBlocksAcross);
 
@@ -53,6 +55,13 @@ const uint kLeastInstants = 6u;
 /// are.
 const float kNoiseFromPx = 2.0f;
 const float kNoiseRampPx = 2.0f;
+// With a lens.
+/// Distance between samples from which pixels have sets of their own, which a filter then averages.
+const float kLensNoiseFromPx = 1.0f;
+/// Reach within which what a block sees counts as in focus and still, pixels.
+const float kStillReachPx = 0.125f;
+/// Way up to which a few samples do.
+const float kSharedWayPx = 0.5f;
 /// Instants at which a way is measured: what spins is seldom where it was at all of them.
 const uint kWayInstants = 5u;
 
@@ -113,6 +122,13 @@ Reach findReach(vec4 rasterFromInstant[3], vec2 first, vec2 alongs, bool perspec
     return reach;
 }
 
+/// The picture goes on as it ends, as where it is searched (withinBorder()).
+void keepInside(inout Reach reach) {
+    vec2 last = vec2(params.sizePx) - 0.5f;
+    reach.low = clamp(reach.low, vec2(0.0f), last);
+    reach.high = clamp(reach.high, vec2(0.0f), last);
+}
+
 uvec2 countBlocks() { return (params.sizePx + kGroupSize - 1u) / kGroupSize; }
 
 BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x) + block.x]; }
@@ -120,13 +136,16 @@ BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x)
 vec2 centreOf(ivec2 block) { return (vec2(block) + 0.5f) * float(kGroupSize); }
 
 /// \return where the block looks at the instant; isAffine: all that it may see is one plane
-PlaneMap lookAt(ivec2 block, uint mover, vec2 alongs, InstantMotion motion, bool perspective) {
+PlaneMap lookAt(
+    ivec2 block, uint mover, vec2 alongs, InstantMotion motion, uint instant, bool perspective
+) {
     PlaneMap none;
     none.isAffine = false;
     if (motion.instantFromRaster[2] == vec4(0.0f)) return none;
     Reach reach = findReach(
         motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongs, perspective
     );
+    if (kHasLens) keepInside(reach);
     bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&
                     all(lessThan(reach.high, vec2(params.sizePx)));
     if (!reach.isInFront || !isInside) return none;
@@ -147,6 +166,8 @@ PlaneMap lookAt(ivec2 block, uint mover, vec2 alongs, InstantMotion motion, bool
             bool isOne = other.mover == mover && gap * map.pxPerAlong <= params.uniformMotionPx;
             if (!isOne) return none;
         }
+    if (kHasLens)
+        map.place += shiftForInterpolation(InstantMotionsRef(method.motions), instant, plane.along);
     return map;
 }
 
@@ -162,6 +183,7 @@ bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspe
         perspective
     );
     if (!reach.isInFront) return true;
+    if (kHasLens) keepInside(reach);
     vec2 size = vec2(params.sizePx);
     if (any(lessThan(reach.high, vec2(0.0f))) || any(greaterThanEqual(reach.low, size)))
         return false;
@@ -231,6 +253,13 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane
     return longest;
 }
 
+/// How far apart a lens and motion let a block look at one thing.
+struct Spread {
+    float way;     // as long as a way along which the samples would lie as close, pixels
+    float reach;   // farthest from the block itself, pixels
+    float leastPx; // least diameter of a circle of confusion
+};
+
 /// What the looks of one block share.
 struct BlockSearch {
     ivec2 block;
@@ -240,6 +269,70 @@ struct BlockSearch {
     bool perspective;
     LayerMotion layer;
 };
+
+/// From a place of the block to where it looks at the middle set's samples: bounds, x and y least and
+/// greatest.
+vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
+    vec4 bounds = vec4(0.0f);
+    for (uint i = 0u; i < params.sampleCount; ++i) {
+        uint instant = i * method.setCount + kMiddleLensSet;
+        InstantMotion motion = InstantMotionTable(search.layer.motions)
+                                   .motions[mover * method.instantCount + instant];
+        if (motion.rasterFromInstant[2] == vec4(0.0f))
+            return vec4(-kFarAway, -kFarAway, kFarAway, kFarAway);
+        PixelRay ray = findRay(motion.rasterFromInstant, x, search.perspective);
+        vec2 from = placeOn(ray, along, search.perspective) - x;
+        bounds = vec4(min(bounds.xy, from), max(bounds.zw, from));
+    }
+    return bounds;
+}
+
+/// By the block's centre or, where that sees itself, by three corners, which what turns about the centre
+/// does not leave alone.
+vec4 boundPlaces(BlockSearch search, uint mover, float along) {
+    vec2 centre = centreOf(search.block);
+    vec4 bounds = boundPlacesOf(search, mover, along, centre);
+    if (max(max(-bounds.x, -bounds.y), max(bounds.z, bounds.w)) > kStillReachPx) return bounds;
+    for (uint corner = 0u; corner < 3u; ++corner) {
+        vec2 side = vec2(corner & 1u, corner >> 1u) * 2.0f - 1.0f;
+        vec4 there = boundPlacesOf(search, mover, along, centre + side * kHalfBlockPx);
+        bounds = vec4(min(bounds.xy, there.xy), max(bounds.zw, there.zw));
+    }
+    return bounds;
+}
+
+/// Least diameter of the circles of confusion of what lies between the candidate's depths, pixels.
+float leastConfusion(Candidate candidate) {
+    if (candidate.key == kSkyKey) return confusionAt(InstantMotionsRef(method.motions), kFarAway);
+    vec2 confusion = InstantMotionsRef(method.motions).value.confusion;
+    float nearest = confusion.x - confusion.y / max(uintBitsToFloat(candidate.nearest), kLeastDepth);
+    float farthest =
+        confusion.x - confusion.y / max(uintBitsToFloat(~candidate.farthestInverted), kLeastDepth);
+    return nearest * farthest <= 0.0f ? 0.0f : 2.0f * min(abs(nearest), abs(farthest));
+}
+
+/// By this frame's raster, which is all that is seen where nothing is out of place.
+/// \param lane whose share of the candidates counts
+Spread measureSpread(BlockSearch search, uint lane) {
+    Spread spread = Spread(0.0f, 0.0f, kFarAway);
+    for (uint slot = lane; slot < kCandidatesPerTile; slot += kLanes) {
+        Candidate candidate = uRaster[search.tile].candidates[slot];
+        if (candidate.key == kNoKey) break;
+        spread.leastPx = min(spread.leastPx, leastConfusion(candidate));
+        vec2 alongs = alongsOf(candidate, search.perspective);
+        for (uint end = 0u; end < 2u; ++end) {
+            vec4 bounds = vec4(-kFarAway, -kFarAway, kFarAway, kFarAway);
+            if (candidate.mover != kDeformedMover)
+                bounds = boundPlaces(search, candidate.mover, alongs[end]);
+            vec2 size = bounds.zw - bounds.xy;
+            float area = size.x * size.y * float(params.sampleCount);
+            spread.way = max(spread.way, max(max(size.x, size.y), sqrt(area)));
+            vec2 farthest = max(-bounds.xy, bounds.zw);
+            spread.reach = max(spread.reach, max(farthest.x, farthest.y));
+        }
+    }
+    return spread;
+}
 
 /// Finds and keeps the look of one instant. \return where the block looks, if that is a plane
 PlaneMap findLook(BlockSearch search, uint instant) {
@@ -253,7 +346,9 @@ PlaneMap findLook(BlockSearch search, uint instant) {
     map.isAffine = false;
     if (seen.mover != kNoMover) {
         InstantMotion motion = table.motions[seen.mover * method.instantCount + instant];
-        map = lookAt(search.block, seen.mover, seen.alongs, motion, search.perspective);
+        map = lookAt(
+            search.block, seen.mover, seen.alongs, motion, instant, search.perspective
+        );
     }
     uint shown = 0u;
     if (!map.isAffine) {
@@ -274,6 +369,8 @@ struct Found {
     uint instants;  // how many each pixel takes
     float noise;    // how much of it, [0, 1]
     bool isUniform; // it sees a plane at each instant
+    bool isStill;   // it sees itself at each instant
+    float leastPx;  // Spread::leastPx
 };
 
 /// \param way how far the block looks in the course of the exposure, pixels
@@ -284,6 +381,16 @@ void chooseInstants(float way, inout Found found) {
     float distancePx = way / float(params.sampleCount);
     found.noise = 0.0f;
     if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
+}
+
+/// With a lens: the samples of one set are spread evenly over it in their order, so that none are left out
+/// but where all of them see the same.
+void chooseSets(Spread spread, inout Found found) {
+    found.isStill = spread.reach <= kStillReachPx;
+    found.instants = spread.way <= kSharedWayPx ? kLeastInstants : params.sampleCount;
+    found.instants = min(found.instants, params.sampleCount);
+    found.noise = spread.way > kLensNoiseFromPx * float(params.sampleCount) ? 1.0f : 0.0f;
+    found.leastPx = spread.leastPx;
 }
 
 /// How far the block looks, by all layers.
@@ -317,6 +424,37 @@ shared vec2 sPlaces[kMostBlocks][kMostLooks];
 shared uint sIsPlane[kMostBlocks]; // a bit for each instant
 shared uint sLongest[kMostBlocks]; // bits of measureWays()
 shared uint sIsMixed[kMostBlocks];
+shared uint sReach[kMostBlocks];   // bits of Spread::reach
+shared uint sLeast[kMostBlocks];   // bits of Spread::leastPx
+
+/// Where pixels take sets of their own: finds the looks of the others than the middle one, too. All lanes
+/// of a group call it.
+Found withOwnSets(BlockSearch search, Found found, uint block, uint lane, bool isWanted) {
+    uint middle = middleSet(method);
+    if (isWanted && found.noise != 0.0f)
+        for (uint instant = lane; instant < method.instantCount; instant += kLanes)
+            if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
+                found.isUniform = false;
+    if (kLanes > 1u) {
+        if (!found.isUniform) sIsMixed[block] = 1u;
+        barrier();
+        found.isUniform = sIsMixed[block] == 0u;
+    }
+    return found;
+}
+
+/// Over all candidates of a block. All lanes of a group call it.
+Spread shareSpread(Spread own, uint block) {
+    if (kLanes == 1u) return own;
+    atomicMax(sLongest[block], floatBitsToUint(own.way));
+    atomicMax(sReach[block], floatBitsToUint(own.reach));
+    atomicMin(sLeast[block], floatBitsToUint(own.leastPx));
+    barrier();
+    return Spread(
+        uintBitsToFloat(sLongest[block]), uintBitsToFloat(sReach[block]),
+        uintBitsToFloat(sLeast[block])
+    );
+}
 
 /// Finds the look of each instant that the block's pixels may take. All lanes of a group call it.
 /// \param isWanted false: there is no such block
@@ -326,10 +464,18 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
             sIsPlane[block] = 0u;
             sLongest[block] = 0u;
             sIsMixed[block] = 0u;
+            sReach[block] = 0u;
+            sLeast[block] = floatBitsToUint(kFarAway);
         }
         barrier();
     }
-    uint middle = method.setCount / 2u;
+    Spread spread = Spread(0.0f, 0.0f, kFarAway);
+    if (kHasLens) {
+        if (isWanted) spread = measureSpread(search, lane);
+        spread = shareSpread(spread, block);
+        if (spread.reach <= kStillReachPx) isWanted = false; // what it looks at is not asked for
+    }
+    uint middle = middleSet(method);
     Course course = Course(0u, vec2(0.0f), 0.0f);
     for (uint i = lane; isWanted && i < params.sampleCount; i += kLanes) {
         PlaneMap map = findLook(search, i * method.setCount + middle);
@@ -349,6 +495,12 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     }
     Found found;
     found.isUniform = course.planes == params.sampleCount;
+    found.isStill = false;
+    found.leastPx = 0.0f;
+    if (kHasLens) {
+        chooseSets(spread, found);
+        return withOwnSets(search, found, block, lane, isWanted);
+    }
     if (isWanted && !found.isUniform) course.way = measureWays(search, lane);
     if (kLanes > 1u) {
         if (!found.isUniform) atomicMax(sLongest[block], floatBitsToUint(max(course.way, 0.0f)));
@@ -356,16 +508,7 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
         if (!found.isUniform) course.way = uintBitsToFloat(sLongest[block]);
     }
     chooseInstants(course.way, found);
-    if (isWanted && found.noise != 0.0f)
-        for (uint instant = lane; instant < method.instantCount; instant += kLanes)
-            if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
-                found.isUniform = false;
-    if (kLanes > 1u) {
-        if (!found.isUniform) sIsMixed[block] = 1u;
-        barrier();
-        found.isUniform = sIsMixed[block] == 0u;
-    }
-    return found;
+    return withOwnSets(search, found, block, lane, isWanted);
 }
 
 void listBlock(uvec2 block, uvec2 blocks, uint list) {
@@ -391,6 +534,7 @@ void addCrowded(uvec2 block, uint tile, uint looks) {
     if (params.uniformMotionPx == 0.0f) return;
     Found found;
     chooseInstants(uintBitsToFloat(~CrowdTable(method.crowds).tiles[tile].wayInverted), found);
+    if (kHasLens) found.instants = params.sampleCount;
     uLooks[looks].perX = found.instants;
     uLooks[looks].perY = floatBitsToUint(found.noise);
 }
@@ -426,7 +570,9 @@ void main() {
             motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)
         );
         Found found = findLooks(search, inGroup, lane, isThere);
+        if (kHasLens && found.isStill) isThere = false;
         if (isThere && lane == 0u) {
+            if (kHasLens) uLooks[looks].place = vec2(found.leastPx, 0.0f);
             uLooks[looks].perX = found.instants;
             uLooks[looks].perY = floatBitsToUint(found.noise);
         }

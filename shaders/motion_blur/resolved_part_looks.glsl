@@ -6,6 +6,7 @@
 
 /// \return whether the part may be seen from the block at the instant
 bool isPartShown(ivec2 block, uint key, uint instant) {
+    if (kHasLens) return true; // the tile's lists know
     TilePart part = uParts[key & ~kPartBit];
     float s = timeOf(InstantMotionsRef(method.motions), instant);
     vec4 bounds = boundsOf(part, wayAt(part, s));
@@ -91,6 +92,7 @@ bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
 PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool standsStill) {
     PlaneMap map;
     map.isAffine = false;
+    if (kHasLens) return map; // parts have no plane to be sheared
     uint key = kNoKey;
     float farthest = 0.0f;
     float s = timeOf(InstantMotionsRef(method.motions), instant);

@@ -33,7 +33,8 @@ bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
 struct PartSearch {
     uint layer;
     uint key;
-    float s; // shutter time
+    float s;   // shutter time
+    vec4 lens; // lensOf(), with kHasLens
     vec2 x;
     mat2 back; // how places in the layer move with the place that they are seen at
 };
@@ -51,6 +52,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
         }
         vec2 displacement;
         if (!findDisplacement(search.layer, texel, search.s, displacement)) return;
+        if (kHasLens) displacement += lensShift(search.lens, surface.depth);
         vec2 centre = vec2(texel) + 0.5f;
         vec2 next = centre + search.back * (search.x - centre - displacement);
         float way = distance(next, at);
@@ -72,20 +74,29 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
 }
 
 /// Looks for what the pixel sees of a part.
-/// \param id index of the part
-/// \param s shutter time
+/// \param candidate with a part
 void searchPart(
-    uint layer, uint id, float s, vec2 x, inout Seen found, inout Doubt doubt
+    uint layer, Candidate candidate, uint instant, vec2 x, inout Seen found, inout Doubt doubt
 ) {
-    TilePart part = getTilePart(layer, id);
+    TilePart part = getTilePart(layer, candidate.key & ~kPartBit);
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    float s = timeOf(motions, instant);
     PartWay way = wayAt(part, s);
     PartBack back = invertWay(part, way);
     vec2 at = placeBack(back, x);
     float reach = min(way.deviation * stretchOf(back), kMostDeviationReachPx);
+    vec4 lens = vec4(0.0f);
+    if (kHasLens) {
+        lens = lensOf(motions, instant);
+        vec2 nearest = lensShift(lens, uintBitsToFloat(candidate.nearest));
+        vec2 farthest = lensShift(lens, uintBitsToFloat(~candidate.farthestInverted));
+        at = placeBack(back, x - 0.5f * (nearest + farthest));
+        reach += 0.5f * distance(nearest, farthest) * stretchOf(back);
+    }
     vec4 box = boxOf(part);
     if (any(lessThan(at, box.xy - reach - 1.0f)) || any(greaterThan(at, box.zw + reach + 1.0f)))
         return;
-    PartSearch search = PartSearch(layer, keyOfPart(part), s, x, back.back);
+    PartSearch search = PartSearch(layer, keyOfPart(part), s, lens, x, back.back);
     bool isWide = way.deviation > kWideDeviationPx;
     // From the place itself and, if the part may be seen at several places, from the nearest one in it:
     // the nearer of what is found hides the other, a leg before the other. One loop, since compilers

@@ -357,9 +357,10 @@ void enterPart(uint index, uint id, uint sample_) {
         uint instant = sample_ * method.setCount + set;
         float s = timeOf(InstantMotionsRef(method.motions), instant);
         vec4 bounds = boundsOf(part, wayAt(part, s));
-        addBox(
-            instant, bounds.xy - kPartMarginPx, bounds.zw + kPartMarginPx, sPartDepths[index], box
-        );
+        vec2 low = bounds.xy - kPartMarginPx;
+        vec2 high = bounds.zw + kPartMarginPx;
+        widenByLens(instant, sPartDepths[index], low, high);
+        addBox(instant, low, high, sPartDepths[index], box);
     }
     if (box.parts != 0u) enterBox(kPartBit | id, box);
 }

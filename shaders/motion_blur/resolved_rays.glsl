@@ -6,6 +6,7 @@
 
 #include "common/sampling.glsl"
 #include "motion_blur/resolved_hidden.glsl"
+#include "motion_blur/resolved_lens_color.glsl"
 
 /// Share of the samples of each class that the frame's rays are enough for, the most harmful first.
 void shareRays(out float shares[kSampleClasses]) {
@@ -34,6 +35,7 @@ vec2 placeOfRay(PixelSearch search, uint index) {
 struct Mean {
     vec3 sum;
     uint known;
+    float confusionPx; // the least of those known
 };
 
 /// A sample as it was looked up.
@@ -41,6 +43,7 @@ struct LookedUp {
     bool isKnown;
     bool isTraced; // a ray shall replace it
     vec3 color;
+    float confusionPx; // with kHasLens, of what was found; kFarthest: nothing
 };
 
 LookedUp lookUpAgain(
@@ -52,19 +55,22 @@ LookedUp lookUpAgain(
     vec3 color = vec3(0.0f);
     bool isKnown = seen.isFound;
     if (seen.isFound) {
-        color = colorOf(seen);
+        color = colorThroughLens(seen, instant);
     } else {
         Substitute substitute = findSubstitute(search, instant);
         isKnown = substitute.distancePx < kFarthest;
         if (isKnown) color = substitute.color;
     }
-    return LookedUp(isKnown, isTraced(pixel, index, shares[classify(seen, color, doubt)]), color);
+    float confusionPx = kHasLens && seen.isFound ? confusionOf(seen) : kFarthest;
+    bool isChosen = isTraced(pixel, index, shares[classify(seen, color, doubt)]);
+    return LookedUp(isKnown, isChosen, color, confusionPx);
 }
 
 void addKnown(LookedUp looked, inout Mean mean) {
     if (!looked.isKnown) return;
     mean.sum += looked.color;
     ++mean.known;
+    mean.confusionPx = min(mean.confusionPx, looked.confusionPx);
 }
 
 /// Adds those of 32 samples that are not traced. \return those that are, a bit each
@@ -89,6 +95,11 @@ bool mayTrace(uint classes, float shares[kSampleClasses]) {
     for (uint i = 0u; i < kSampleClasses; ++i)
         if ((classes >> i & 1u) != 0u && shares[i] > 0.0f) return true;
     return false;
+}
+
+/// Alpha of a pixel of which samples were traced.
+float alphaOf(PixelSearch search, Mean mean) {
+    return kHasLens && search.set != kMiddleLensSet ? alphaForFilter(mean.confusionPx) : 1.0f;
 }
 
 #endif

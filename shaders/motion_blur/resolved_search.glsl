@@ -107,7 +107,7 @@ bool searchRigid(
     float spreadPx, inout Seen found, inout Doubt doubt
 ) {
     uint key = guess.key;
-    vec2 at = placeOn(ray, guess.along, perspective);
+    vec2 at = withinBorder(layer, placeOn(ray, guess.along, perspective));
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
@@ -125,7 +125,7 @@ bool searchRigid(
         if (perspective && depth < kLeastDepth) return false;
         float along = alongOf(depth, perspective);
         if (spreadPx >= kArrivedPx) {
-            vec2 next = placeOn(ray, along, perspective);
+            vec2 next = withinBorder(layer, placeOn(ray, along, perspective));
             float way = distance(next, at);
             at = next;
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
@@ -152,7 +152,7 @@ uint searchInner(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
     float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 at = placeOn(ray, guess.along, perspective);
+    vec2 at = withinBorder(layer, placeOn(ray, guess.along, perspective));
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurfaceAt(layer, at);
@@ -163,7 +163,8 @@ uint searchInner(
     float layerDepth = depthOfKey(guess.key, surface.depth);
     float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
     float along = alongOf(depth, perspective);
-    vec2 place = spreadPx < kArrivedPx ? at : placeOn(ray, along, perspective);
+    vec2 place = at;
+    if (spreadPx >= kArrivedPx) place = withinBorder(layer, placeOn(ray, along, perspective));
     if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
     if (perspective && depth < kLeastDepth) return kUnclear;
@@ -291,10 +292,7 @@ void searchLayer(
             break;
         Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
         if (isDeformed(candidate.mover))
-            searchPart(
-                index, candidate.key & ~kPartBit,
-                timeOf(InstantMotionsRef(method.motions), instant), pixel.x, found, doubt
-            );
+            searchPart(index, candidate, instant, pixel.x, found, doubt);
         else
             searchDepths(
                 index, candidate,

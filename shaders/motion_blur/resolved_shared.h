@@ -72,7 +72,8 @@ struct BlockPlane {
 SHUTTER_CONST uint kMostLooks = 32u;
 
 /// Before the looks of a block stands one whose perX is how many instants its pixels take, and perY
-/// the bits of a float: how much of InstantNoise they take them with, [0, 1].
+/// the bits of a float: how much of InstantNoise they take them with, [0, 1]. With a lens place.x
+/// is the least diameter that it spreads anything over that the block may see, pixels.
 ///
 /// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
 struct BlockLook {
@@ -98,6 +99,8 @@ SHUTTER_CONST uint kNoRayLimit = 0xFFFFFFFFu;
 /// Sets of instants that pixels choose from with noise. Odd: the middle one is that of all pixels
 /// without.
 SHUTTER_CONST uint kInstantSets = 5u;
+/// Greatest radius of the filter over pixels that have sets of a lens's places, pixels.
+SHUTTER_CONST float kMostLensFilterPx = 1.6f;
 /// Side of the mask that they choose by; a power of two.
 SHUTTER_CONST uint kNoiseSidePx = 64u;
 
@@ -107,6 +110,8 @@ SHUTTER_CONST uint kHasSecondLayer = 2u; // the raster of the exposure's other e
 /// Images of where what deforms goes (common/pixel_way.glsl), for all layers. Without, motion
 /// vectors say it, for this frame's raster alone.
 SHUTTER_CONST uint kHasWays = 4u;
+/// Each instant has a place of the lens: InstantMotions::lens.
+SHUTTER_CONST uint kHasLensPlaces = 8u;
 
 struct ResolvedParams {
     uvec2 motions; // address of InstantMotions

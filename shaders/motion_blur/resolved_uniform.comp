@@ -6,11 +6,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/resolved.glsl"
+#include "motion_blur/resolved_lens.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 3
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kThreadRows = kGroupSize; // of a group
+layout(constant_id = 3) const bool kHasLens = false; // each instant has a place of the lens
 layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
@@ -25,7 +27,7 @@ const uint kRows = kGroupSize / kThreadRows;
 /// What all pixels of the column see at the same instants.
 void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    uint first = looks + method.setCount / 2u;
+    uint first = looks + middleSet(method);
     for (uint i = 0u; i < count; ++i) {
         uint taken = takenInstant(i, count, params.sampleCount);
         BlockLook look = uLooks[first + taken * method.setCount];
@@ -64,9 +66,11 @@ void main() {
         addOwn(pixel, looks + 1u, inBlock, noise, sums);
     else
         addShared(looks + 1u, count, inBlock, sums);
+    float alpha = 1.0f;
+    if (kHasLens && noise > 0.0f) alpha = alphaForFilter(uLooks[looks].place.x);
     for (uint row = 0u; row < kRows; ++row) {
         ivec2 to = pixel + ivec2(0, row * kThreadRows);
         if (all(lessThan(uvec2(to), params.sizePx)))
-            imageStore(uBlurred, to, vec4(sums[row] / float(count), 1.0f));
+            imageStore(uBlurred, to, vec4(sums[row] / float(count), alpha));
     }
 }

@@ -8,7 +8,9 @@
 #include "tests/support/stage.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,9 +42,9 @@ SceneBuilder makeRoom(const CameraLens& lens, bool moves = false) {
 }
 
 TEST_F(LensLaw, AClosedLensIsThePinholeToTheBit) {
-    std::vector<std::string_view> methods{"accumulate"};
+    std::vector<std::string_view> methods{"accumulate", "resolved"};
     if (device().hasRayQuery())
-        methods = {"accumulate", "truth", "denoised"};
+        methods.insert(methods.end(), {"truth", "denoised"});
     for (const std::string_view method : methods) {
         Shot shot{.method = method, .width = 48, .height = 32};
         SceneBuilder scene = makeRoom({}, true);
@@ -64,7 +66,7 @@ TEST_F(LensLaw, AClosedLensIsThePinholeToTheBit) {
 TEST_F(LensLaw, MethodsWithoutALensDrawThePinhole) {
     SceneBuilder scene = makeRoom({.fStop = 0.5, .focusDistance = 5.0}, true);
     Stage stage(device(), scene);
-    for (const std::string_view method : {"sharp", "resolved", "gather"}) {
+    for (const std::string_view method : {"sharp", "own_velocity", "gather"}) {
         const Shot shot{.method = method, .width = 48, .height = 32};
         const image::Image open = stage.render(shot).color;
         scene.world.registry.remove<CameraLens>(scene.camera);
@@ -134,27 +136,32 @@ constexpr uint32_t kSpotWidth = 96;
 constexpr uint32_t kSpotHeight = 64;
 const double kPixelsPerUnit = kSpotHeight / (2.0 * std::tan(kYFov / 2.0));
 
-/// A white dot, 3 px wide, alone at a depth.
-Spot drawSpot(gpu::Device& device, const CameraLens& lens, double depth) {
+/// A white dot, 4 px wide from border to border of pixels, alone at a depth.
+Spot drawSpot(
+    gpu::Device& device,
+    const CameraLens& lens,
+    double depth,
+    std::string_view method = "accumulate"
+) {
     SceneBuilder scene;
     scene.setPerspective(kYFov);
     scene.world.registry.add(scene.camera, lens);
     const double pixel = 2.0 * std::tan(kYFov / 2.0) / kSpotHeight * depth;
     scene.add(
-        test::makeQuad(3 * pixel, 3 * pixel, scene.addColor({1, 1, 1})),
+        test::makeQuad(4 * pixel, 4 * pixel, scene.addColor({1, 1, 1})),
         {.position = {0, 0, -depth}}
     );
     return measureSpot(test::renderOnce(
                            device,
                            scene,
-                           {.method = "accumulate",
+                           {.method = method,
                             .width = kSpotWidth,
                             .height = kSpotHeight,
                             .exposureSeconds = 0.0,
                             .instants = 256,
-                            .pixel = accumulate::PixelModel::Box}
-    )
-                           .color);
+                            .pixel = accumulate::PixelModel::Box,
+                            .settings = {.sampleCount = 32}}
+    ).color);
 }
 
 /// A disc of diameter D has the variance (D / 4)^2 along each axis.
@@ -239,6 +246,20 @@ TEST_F(LensTruthLaw, RaysFollowALensThatIsFocusedStoppedDownAndZoomed) {
     EXPECT_GE(image::computePsnr(rays, stage.render(shot).color), 55.0);
 }
 
+TEST_F(LensTruthLaw, AdaptiveTracesThroughThePlacesOfTheLensThatResolvedLooksThrough) {
+    const SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = 5.0}, true);
+    Stage stage(device(), scene);
+    Shot shot{
+        .method = "truth", .width = 128, .height = 72, .exposureSeconds = 0.1, .instants = 256};
+    const image::Image truth = stage.render(shot).color;
+    shot.settings.sampleCount = 32;
+    shot.method = "resolved";
+    const double lookedUp = image::computePsnr(stage.render(shot).color, truth);
+    shot.method = "adaptive";
+    shot.settings.raysPerPixel = std::numeric_limits<float>::infinity();
+    EXPECT_GE(image::computePsnr(stage.render(shot).color, truth), lookedUp + 1.0);
+}
+
 TEST_F(LensTruthLaw, DenoisedRaysAreTheTruthsWhereThereAreMany) {
     const SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = 3.0});
     Stage stage(device(), scene);
@@ -277,6 +298,119 @@ TEST_F(LensLaw, LensAndShutterTogetherAreTheMeanOverBoth) {
     EXPECT_GE(both, 52.0);
     EXPECT_GE(both, image::computePsnr(lensOnly, mean) + 6.0);
     EXPECT_GE(both, image::computePsnr(timeOnly, mean) + 6.0);
+}
+
+TEST_F(LensLaw, ResolvedSpreadsAPointOfLightOverTheSameDisc) {
+    const Spot sharp = drawSpot(device(), {}, 3.0, "resolved");
+    const CameraLens lens{.fStop = 0.05, .focusDistance = 3.0};
+    for (const double depth : {1.5, 2.0, 3.0, 6.0, 30.0}) {
+        const Spot spot = drawSpot(device(), lens, depth, "resolved");
+        // The filter over sets of places widens it a little.
+        const math::dvec2 diameters = findDiameters(spot, sharp);
+        const double expected = scene::computeConfusionDiameter(
+            lens, scene::computeLensRadius(lens, kYFov), depth, kPixelsPerUnit
+        );
+        EXPECT_NEAR(diameters.x, expected, 0.7) << depth;
+        EXPECT_NEAR(diameters.y, expected, 0.7) << depth;
+        EXPECT_NEAR(spot.centre.x, kSpotWidth / 2.0, 0.1) << depth;
+        EXPECT_NEAR(spot.centre.y, kSpotHeight / 2.0, 0.1) << depth;
+    }
+}
+
+TEST_F(LensLaw, ResolvedLeavesWhatIsInFocusAndSurfacesOfOneColour) {
+    SceneBuilder scene;
+    scene.setPerspective(kYFov);
+    scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
+    scene.add(test::makeQuad(20, 14, scene.addWaves()), {.position = {0, 0, -5}});
+    Stage stage(device(), scene);
+    Shot shot{.width = 64, .height = 36, .exposureSeconds = 0.0};
+    const image::Image sharp = stage.render(shot).color;
+    shot.method = "resolved";
+    EXPECT_TRUE(test::sameBits(stage.render(shot).color, sharp));
+
+    SceneBuilder grey;
+    grey.setPerspective(kYFov);
+    grey.world.registry.add(grey.camera, CameraLens{.fStop = 0.1, .focusDistance = 3.0});
+    for (const double z : {-1.0, -3.0, -9.0})
+        grey.add(test::makeQuad(1, 1, grey.addColor({0.5f, 0.5f, 0.5f})), {.position = {0, 0, z}});
+    shot.background = math::vec3(0.5f);
+    const image::Image flat = test::renderOnce(device(), grey, shot).color;
+    for (uint32_t y = 0; y < 36; ++y)
+        for (uint32_t x = 0; x < 64; ++x)
+            ASSERT_NEAR(flat.at(x, y, 1), 0.5f, 1e-3f) << x << " " << y;
+}
+
+TEST_F(LensLaw, ResolvedIsNearTheMeanOfManyPicturesWithAndWithoutMotion) {
+    // In focus is the wall, or the box before it.
+    for (const auto& [focus, exposure, least] :
+         {std::tuple{5.0, 0.0, 41.0}, {5.0, 0.2, 36.0}, {2.0, 0.0, 37.5}, {2.0, 0.2, 35.0}}) {
+        SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = focus}, true);
+        Stage stage(device(), scene);
+        Shot shot{
+            .method = "accumulate",
+            .width = 256,
+            .height = 144,
+            .exposureSeconds = exposure,
+            .instants = 256};
+        const image::Image many = stage.render(shot).color;
+        shot.method = "resolved";
+        shot.settings.sampleCount = 16;
+        const double near = image::computePsnr(stage.render(shot).color, many);
+        EXPECT_GE(near, least) << focus << " " << exposure;
+        scene.world.registry.remove<CameraLens>(scene.camera);
+        const double pinhole = image::computePsnr(stage.render(shot).color, many);
+        if (focus == 5.0) {
+            EXPECT_GE(near, pinhole + 2.0) << exposure;
+        }
+    }
+}
+
+TEST_F(LensLaw, ResolvedHasTheSameBitsInEachRunAndOrderOfEntities) {
+    std::vector<image::Image> pictures;
+    for (const bool isReversed : {false, false, true}) {
+        SceneBuilder scene;
+        scene.setPerspective(kYFov);
+        scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.1, .focusDistance = 3.0});
+        const auto grey = scene.addColor({0.6f, 0.5f, 0.4f});
+        const auto waves = scene.addWaves();
+        for (int i = 0; i < 6; ++i) {
+            const int k = isReversed ? 5 - i : i;
+            test::Placement at{.position = {0.4 * k - 1.0, 0.1 * k, -1.5 - 0.7 * k}};
+            at.velocity = {0.2 * k, 0.0, 0.1};
+            scene.add(test::makeQuad(0.7, 0.9, k % 2 == 0 ? grey : waves), at);
+        }
+        pictures.push_back(
+            test::renderOnce(device(), scene, {.method = "resolved", .width = 80, .height = 50})
+                .color
+        );
+    }
+    EXPECT_TRUE(test::sameBits(pictures[1], pictures[0]));
+    EXPECT_TRUE(test::sameBits(pictures[2], pictures[0]));
+}
+
+TEST_F(LensLaw, ResolvedStaysFiniteThroughAnyLens) {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {41u, 39u}})
+        for (const CameraLens& lens :
+             {CameraLens{.fStop = 0.01, .focusDistance = 1.0},
+              CameraLens{.fStop = 0.01, .focusDistance = 1.0e-4},
+              CameraLens{.fStop = 0.01, .focusDistance = 1.0e9},
+              CameraLens{.fStop = 1.0e9, .focusDistance = 1.0},
+              CameraLens{.fStop = 0.1, .focusDistance = 1.0, .blades = 3, .squeeze = 4.0}}) {
+            SceneBuilder scene = makeRoom(lens, true);
+            // As near as the camera sees.
+            scene.add(
+                test::makeQuad(0.05, 0.05, scene.addColor({1, 1, 1})),
+                {.position = {0.0, 0.0, -0.011}}
+            );
+            const image::Image seen =
+                test::renderOnce(
+                    device(), scene, {.method = "resolved", .width = width, .height = height}
+                )
+                    .color;
+            for (const float value : seen.pixels)
+                ASSERT_TRUE(std::isfinite(value) && value >= 0.0f)
+                    << width << " " << lens.fStop << " " << lens.focusDistance;
+        }
 }
 
 } // namespace

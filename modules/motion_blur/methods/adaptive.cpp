@@ -151,6 +151,7 @@ const Method kAdaptive = {
     .sampleUnit = SampleUnit::Instants,
     .defaultSamples = 15,
     .readsEntityId = true,
+    .readsLens = true,
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 8, // the listed pixels

@@ -49,6 +49,7 @@ const Method kResolved = {
     .sampleUnit = SampleUnit::Instants,
     .defaultSamples = 15,
     .readsEntityId = true,
+    .readsLens = true,
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 3, // the candidates

@@ -14,13 +14,13 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
+gpu::ComputePipelineDesc describeResolve(const gpu::Device& device, bool hasLens) {
     gpu::ComputePipelineDesc desc = describePass(
         "resolve uniform", motion_blur_resolved_uniform_comp, {kSampled, kStorage, kBuffer, kBuffer}
     );
     // On a software device a thread takes a column of the block: what it loads serves all of it.
     const uint32_t rows = isSoftware(device) ? 1u : shader::kGroupSize;
-    desc.specialization = {shader::kUniformList, rows, rows};
+    desc.specialization = {shader::kUniformList, rows, rows, hasLens ? 1u : 0u};
     return desc;
 }
 
@@ -30,16 +30,22 @@ uint32_t countThreadsAcross(const gpu::Device& device) {
     return isSoftware(device) ? 1 : 4;
 }
 
-gpu::ComputePipelineDesc describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts) {
+gpu::ComputePipelineDesc
+describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts, bool hasLens) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
     desc.specialization = {
         sortsUniform ? 1u : 0u,
         hasParts ? 1u : 0u,
-        shader::kGroupSize / countThreadsAcross(device)};
+        shader::kGroupSize / countThreadsAcross(device),
+        hasLens ? 1u : 0u};
     desc.subgroupSize = kDivergingSubgroup;
     return desc;
+}
+
+bool hasLens(const PassParams& params) {
+    return (params.getMethod<shader::ResolvedParams>().has & shader::kHasLensPlaces) != 0;
 }
 
 VkDeviceSize countAllBlocks(const PassParams& params) {
@@ -60,9 +66,13 @@ BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
           device,
           describePass("fit planes", motion_blur_resolved_planes_comp, {kSampled, kBuffer, kBuffer})
       ),
-      mFind(device, describeFind(device, sortsUniform, false)),
-      mFindParts(device, describeFind(device, sortsUniform, true)),
-      mResolve(device, describeResolve(device)) {}
+      mFind{
+          {{device, describeFind(device, sortsUniform, false, false)},
+           {device, describeFind(device, sortsUniform, true, false)},
+           {device, describeFind(device, sortsUniform, false, true)},
+           {device, describeFind(device, sortsUniform, true, true)}}},
+      mResolve{
+          {{device, describeResolve(device, false)}, {device, describeResolve(device, true)}}} {}
 
 bool BlockLooks::canFind(const PassParams& params) const {
     return params.sampleCount <= shader::kMostLooks &&
@@ -179,7 +189,8 @@ BlockLookOutputs BlockLooks::addFind(
                       mayCrowd ? data.sorted.counters : lists.blocks})
                     bindings.buffer(resources.buffer(buffer));
                 const PassParams own = withCrowds(params, resources, data.tiles.crowds);
-                const gpu::LazyPipeline& pipeline = data.tiles.parts.isValid() ? mFindParts : mFind;
+                const gpu::LazyPipeline& pipeline =
+                    mFind.at((data.tiles.parts.isValid() ? 1 : 0) + (hasLens(params) ? 2 : 0));
                 const glm::uvec2 threads = countBlocks(params) * countThreadsAcross(mDevice);
                 dispatchPixels(context, pipeline.get(), bindings, own, threads);
             }
@@ -225,7 +236,7 @@ graph::ImageHandle BlockLooks::addResolve(
                     .buffer(resources.buffer(data.lists.blocks));
                 dispatchList(
                     context,
-                    mResolve.get(),
+                    mResolve.at(hasLens(params) ? 1 : 0).get(),
                     bindings,
                     params,
                     data.lists.arguments,

@@ -10,6 +10,8 @@
 #include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 
+#include <array>
+
 namespace shutter::motion_blur {
 
 /// Candidates of each tile, sorted.
@@ -78,9 +80,9 @@ class BlockLooks {
 
     gpu::Device& mDevice;
     gpu::LazyPipeline mFit;
-    gpu::LazyPipeline mFind;
-    gpu::LazyPipeline mFindParts; ///< where something deforms
-    gpu::LazyPipeline mResolve;
+    /// 1 added where something deforms, 2 with a lens.
+    std::array<gpu::LazyPipeline, 4> mFind;
+    std::array<gpu::LazyPipeline, 2> mResolve; ///< 1: with a lens
 };
 
 } // namespace shutter::motion_blur

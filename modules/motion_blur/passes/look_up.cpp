@@ -41,14 +41,15 @@ constexpr uint32_t kWithSecond = 1;
 constexpr uint32_t kWithCrowds = 2;
 constexpr uint32_t kWithParts = 4;
 constexpr uint32_t kWithEdges = 8;
-constexpr uint32_t kPipelineCount = 16;
+constexpr uint32_t kWithLens = 16;
+constexpr uint32_t kPipelineCount = 32;
 
 /// \param desc with constants 0 and 1, if it has any
 gpu::ComputePipelineDesc specialize(gpu::ComputePipelineDesc desc, uint32_t bits) {
     desc.specialization.resize(2);
     if (bits & kWithCrowds)
         desc.specialization[0] = shader::kCandidateList;
-    for (const uint32_t bit : {kWithSecond, kWithCrowds, kWithParts, kWithEdges})
+    for (const uint32_t bit : {kWithSecond, kWithCrowds, kWithParts, kWithEdges, kWithLens})
         desc.specialization.push_back(bits & bit ? 1u : 0u);
     return desc;
 }
@@ -217,12 +218,14 @@ const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool ha
         bits |= kWithParts;
     if (search.edgeSurface.isValid())
         bits |= kWithEdges;
+    if (search.hasLens)
+        bits |= kWithLens;
     return mPipelines.at(bits).get();
 }
 
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
-      mCrowds(device), mParts(device),
+      mCrowds(device), mParts(device), mLensFilter(device),
       mSort(
           device,
           describePass(
@@ -248,14 +251,15 @@ LookUpOutputs LookUp::add(
     SharedPasses& shared
 ) {
     const InstantMotions& motions = *inputs.instantMotions;
-    SHUTTER_CHECK_EQ(motions.instantCount, countInstants(settings));
+    SHUTTER_CHECK_EQ(motions.instantCount, countInstants(settings, motions.hasLens));
     const RasterHistory* const history = motions.history;
     const bool isKept = history && history->holds(params.sizePx);
     const bool hasLast = motions.hasLast && (isKept || motions.lent);
     auto own = params.getMethod<shader::ResolvedParams>();
     own.has = (hasLast ? shader::kHasLastLayer : 0u) |
               (motions.second ? shader::kHasSecondLayer : 0u) |
-              (motions.drawWays ? shader::kHasWays : 0u);
+              (motions.drawWays ? shader::kHasWays : 0u) |
+              (motions.hasLens ? shader::kHasLensPlaces : 0u);
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
@@ -264,6 +268,7 @@ LookUpOutputs LookUp::add(
     SearchResources& search = outputs.search;
     search.layers = mLayers.add(graph, inputs, params, hasLast);
     search.motionDepth = inputs.motionDepth;
+    search.hasLens = motions.hasLens;
     search.edgeSurface = inputs.edgeSurface;
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
@@ -351,7 +356,7 @@ void LookUp::describeInstants(
 ) {
     own.instantCount = inputs.instantMotions->instantCount;
     own.setCount = own.instantCount / settings.sampleCount;
-    if (settings.instantNoise == InstantNoise::Off)
+    if (inputs.instantMotions->hasLens || settings.instantNoise == InstantNoise::Off)
         return;
     if (!mNoise)
         mNoise = makeNoise(mDevice);
@@ -452,6 +457,8 @@ MotionBlurOutputs LookUp::end(
         params,
         found.stillPixelsBy
     );
+    if (found.search.hasLens)
+        outputs.color = mLensFilter.add(graph, outputs.color, params);
     outputs.surfaces = found.surfaces;
     const SurfaceLayersOutputs& layers = found.search.layers;
     for (const View& view : {View{"second", layers.second.color}, View{"last", layers.last.color}})

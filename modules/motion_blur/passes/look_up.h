@@ -10,6 +10,7 @@
 #include "modules/motion_blur/passes/candidate_lists.h"
 #include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/deforming_parts.h"
+#include "modules/motion_blur/passes/lens_filter.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 #include "modules/motion_blur/shared_passes.h"
 #include "shaders/motion_blur/resolved_shared.h"
@@ -33,6 +34,7 @@ struct SearchResources {
     std::array<graph::BufferHandle, 3> parts; ///< of DeformingParts
     std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
     graph::BufferHandle counters;             ///< shader::ResolvedCounters
+    bool hasLens = false;                     ///< InstantMotions::hasLens
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);
@@ -50,7 +52,7 @@ struct ListedPixels {
 /// The pipelines of a pass that searches.
 class SearchPipelines {
   public:
-    /// \param desc whose constants 2 to 5 are set here (resolved_layers.glsl,
+    /// \param desc whose constants 2 to 6 are set here (resolved_layers.glsl,
     /// resolved_crowd_search.glsl)
     SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
 
@@ -86,8 +88,8 @@ class LookUp {
         PassParams& params,
         SharedPasses& shared);
 
-    /// What the method returns, after its last pass: adds what is static to the picture, and
-    /// copies the counters for the CPU.
+    /// What the method returns, after its last pass: adds what is static to the picture, filters
+    /// what a lens spreads, and copies the counters for the CPU.
     [[nodiscard]] MotionBlurOutputs
     end(graph::Graph& graph,
         const MotionBlurInputs& inputs,
@@ -118,6 +120,7 @@ class LookUp {
     CandidateLists mCandidates;
     Crowds mCrowds;
     DeformingParts mParts;
+    LensFilter mLensFilter;
     gpu::LazyPipeline mSort;
     BlockLooks mBlocks;
     SearchPipelines mResolve;

@@ -24,8 +24,8 @@ gpu::ComputePipelineDesc describePack(bool skipsStill, bool hasEdges) {
     return desc;
 }
 
-gpu::ComputePipelineDesc describePackKept(bool hasEdges) {
-    gpu::ComputePipelineDesc desc = describePack(true, hasEdges);
+gpu::ComputePipelineDesc describePackKept(bool skipsStill, bool hasEdges) {
+    gpu::ComputePipelineDesc desc = describePack(skipsStill, hasEdges);
     desc.spirv = motion_blur_resolved_surface_kept_comp;
     desc.interface.bindings.insert(desc.interface.bindings.end(), {kSampled, kStorage});
     return desc;
@@ -70,7 +70,9 @@ importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLa
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
     : mKeepsByTransfer(isSoftware(device)), mSampler(device.nearestSampler()),
       mPack{{device, describePack(true, false)}, {device, describePack(true, true)}},
-      mPackKept{{device, describePackKept(false)}, {device, describePackKept(true)}},
+      mPackKept{{device, describePackKept(true, false)}, {device, describePackKept(true, true)}},
+      mPackKeptWhole{
+          {device, describePackKept(false, false)}, {device, describePackKept(false, true)}},
       mPackWhole{{device, describePack(false, false)}, {device, describePack(false, true)}} {}
 
 SurfaceLayersOutputs SurfaceLayers::add(
@@ -79,6 +81,9 @@ SurfaceLayersOutputs SurfaceLayers::add(
     RasterHistory* const history = inputs.instantMotions->history;
     SurfaceLayersOutputs outputs;
     const auto& lent = inputs.instantMotions->lent;
+    // What has no motion may be out of focus.
+    const bool hasLens = inputs.instantMotions->hasLens;
+    const Pack& packPlain = hasLens ? mPackWhole : mPack;
     const auto pack = [&](graph::ImageHandle color,
                           const Pack& pipeline,
                           graph::ImageHandle motionDepth,
@@ -89,7 +94,8 @@ SurfaceLayersOutputs SurfaceLayers::add(
         return SurfaceLayer{color, addPack(graph, pipeline, raster, target, params).surface};
     };
     if (wantLast && lent)
-        outputs.last = pack(lent->color, mPack, lent->motionDepth, lent->entityId, lent->hasEdges);
+        outputs.last =
+            pack(lent->color, packPlain, lent->motionDepth, lent->entityId, lent->hasEdges);
     else if (wantLast)
         outputs.last = importRaster(graph, history->newest(), kKeptLayout);
     if (history && inputs.instantMotions->keepsRaster) {
@@ -99,17 +105,22 @@ SurfaceLayersOutputs SurfaceLayers::add(
             const auto kept = addKeepColor(graph, inputs.color, target.color);
             const PackInputs raster{
                 inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid(), {}};
-            outputs.raster = {kept, addPack(graph, mPack, raster, target, params).surface};
+            outputs.raster = {kept, addPack(graph, packPlain, raster, target, params).surface};
         } else {
             const PackInputs raster{
                 inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid(), inputs.color};
-            outputs.raster = addPack(graph, mPackKept, raster, target, params);
+            outputs.raster =
+                addPack(graph, hasLens ? mPackKeptWhole : mPackKept, raster, target, params);
         }
         graph.markOutput(outputs.raster.color);
         graph.markOutput(outputs.raster.surface);
     } else {
         outputs.raster = pack(
-            inputs.color, mPack, inputs.motionDepth, inputs.entityId, inputs.edgeSurface.isValid()
+            inputs.color,
+            packPlain,
+            inputs.motionDepth,
+            inputs.entityId,
+            inputs.edgeSurface.isValid()
         );
     }
     if (const auto& second = inputs.instantMotions->second)

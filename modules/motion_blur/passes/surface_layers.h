@@ -60,8 +60,9 @@ class SurfaceLayers {
     bool mKeepsByTransfer;
     VkSampler mSampler;
     Pack mPack;
-    Pack mPackKept;  ///< keeps the colour, too
-    Pack mPackWhole; ///< of rasters whose motion vectors say nothing
+    Pack mPackKept;      ///< keeps the colour, too
+    Pack mPackKeptWhole; ///< the same where motion vectors say nothing
+    Pack mPackWhole;     ///< of rasters whose motion vectors say nothing
 };
 
 } // namespace shutter::motion_blur

@@ -74,6 +74,7 @@ InstantMotions InstantMotionBuffers::declare(const render::PostContext& context)
     InstantMotions motions;
     motions.table = writeInstantLayers(mDevice, mTables, mBuffers.at(context.slot));
     motions.instantCount = mInstantCount;
+    motions.hasLens = !mTables.lens.empty();
     motions.hasLast = mTables.last.has_value();
     motions.deforms = {
         mTables.raster.deforms,

@@ -155,7 +155,9 @@ core::Decision MotionBlurPlugin::askParticles(const render::ViewFacts& facts) co
 
 void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->readsInstantMotions)
-        mInstantMotions.extract(context, countInstants(settings()), settings().history);
+        mInstantMotions.extract(
+            context, countInstants(settings(), context.view.usesLens), settings().history
+        );
     extract::LayerLimits limits;
     if (settings().method->sampleUnit == SampleUnit::Instants)
         limits.instants = settings().sampleCount;

@@ -303,8 +303,8 @@ TEST_F(RenderOptionsTest, ALensIsForMethodsThatHaveOne) {
         accept(Words{"--method=truth", "--fstop=8"}).fingerprint
     );
     for (const char* word : {"--fstop=2.8", "--focus=3"})
-        refuse(std::string(word).substr(0, 7), Words{word});
-    refuse("method resolved has no lens yet", Words{"--fstop=2.8"});
+        refuse(std::string(word).substr(0, 7), Words{"--method=gather", word});
+    refuse("method gather has no lens yet", Words{"--method=gather", "--fstop=2.8"});
     for (const char* bad : {"-1", "nan", "inf", "1e99", "x", ""}) {
         refuse("--fstop", Words{"--method=truth", std::string("--fstop=") + bad});
         refuse("--focus", Words{"--method=truth", std::string("--focus=") + bad});
