@@ -140,7 +140,7 @@ void addFlyers(GltfWriter& writer) {
     );
 }
 
-/// Stands still, in front of everything, where the sliding box passes behind it.
+/// Is static, in front of everything, where the sliding box passes behind it.
 void addPost(GltfWriter& writer) {
     Shape post = withUvScale(cylinder(0.022f, 2.4f, 20), {1.0f, 4.0f});
     append(post, cylinder(0.10f, 0.05f, 24), glm::translate(glm::mat4(1.0f), {0.0f, -1.19f, 0.0f}));

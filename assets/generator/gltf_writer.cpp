@@ -59,7 +59,7 @@ void putWord(std::string& out, size_t value) {
     out.append(bytes, 4);
 }
 
-/// Of a file that is long enough (checked before).
+/// Reads a word of a file that is long enough (checked before).
 uint32_t getWord(std::span<const uint8_t> file, size_t at) {
     uint32_t word = 0;
     std::memcpy(&word, file.data() + at, sizeof(word));

@@ -66,7 +66,7 @@ std::vector<BenchCase> makeCases() {
             "wheel_spokes",
             "Wheel with spokes, rolling",
             "An old bicycle rolls past: spokes turn further than the gap between them, the rim "
-            "stands still at the ground and moves at twice the speed at its top",
+            "is static at the ground and moves at twice the speed at its top",
             &buildWheelSpokesCase,
             kYardSky,
             {32.0f, 38.0f}
@@ -110,7 +110,7 @@ std::vector<BenchCase> makeCases() {
         makeCase(
             "static_post",
             "Static post before a mover",
-            "A loaded sledge runs behind thin posts that stand still and must stay sharp, though "
+            "A loaded sledge runs behind thin posts that are static and must stay sharp, though "
             "what moves behind them is uncovered all the time",
             &buildStaticPostCase,
             kYardSky,

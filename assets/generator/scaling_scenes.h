@@ -24,7 +24,7 @@ inline constexpr int kMaxTriangleCount = 1'000'000;
 [[nodiscard]] GltfWriter buildEntitiesScene(int count);
 
 /// A grid of `count` boxes that share one mesh, of which `movers`, spread over it, move by 12 to 20
-/// px at 1280x720; the others stand still. `merged`: those are one mesh of one entity; the picture
+/// px at 1280x720; the others are static. `merged`: those are one mesh of one entity; the picture
 /// is the same. No wall. \param count clamped to [1, kMaxEntityCount]; movers to [0, count]
 [[nodiscard]] GltfWriter buildFewMoversScene(int count, int movers, bool merged);
 
@@ -51,7 +51,7 @@ inline constexpr int kPanelRows = 9;
 
 /// kPanelColumns x kPanelRows panels before a wall, each in a cell of 80 x 80 px at 1280x720. Those
 /// in the lower left `columns` x `rows` cells move by 8 px, each row against the next; the others
-/// stand still. Whatever the region, the picture and the meshes are the same, and the work in a
+/// are static. Whatever the region, the picture and the meshes are the same, and the work in a
 /// region grows with its area: movers, background and silhouettes are in every cell.
 /// \param columns, rows clamped to [0, kPanelColumns] and [0, kPanelRows]; where one is 0 nothing
 /// moves

@@ -23,7 +23,7 @@ inline constexpr uint32_t kMaxDeformationIntervals = 256;
 using DeformationAt = std::function<scene::Deformation(double s)>;
 
 struct DeformationKeys {
-    /// One: it stands still. Else 2^n + 1 at uniform shutter times, both ends included.
+    /// One: it is static. Else 2^n + 1 at uniform shutter times, both ends included.
     std::vector<scene::Deformation> keys;
     math::Bounds swept;         ///< object space: holds every vertex at every shutter time
     bool followsExactly = true; ///< false: kMaxDeformationIntervals were not enough

@@ -356,7 +356,7 @@ constexpr uint32_t kDeformedParts = 4;
 /// A box's way through the exposure, metres.
 struct Way {
     double length = 0.0;
-    uint32_t parts = 0; ///< whose chords are nearly as long; 0: it stands still
+    uint32_t parts = 0; ///< whose chords are nearly as long; 0: it is static
 };
 
 template <class MatrixAt> Way measureWay(const math::Bounds& bounds, const MatrixAt& matrixAt) {

@@ -161,16 +161,16 @@ struct RowChanges {
 struct ExtractedFrame {
     std::vector<shader::EntityRow> entities;
     /// Rows that move in the picture; EntityRow::motion indexes the two lists as one.
-    std::vector<shader::EntityMotion> stillMotions; ///< ... while they stand still in the world
+    std::vector<shader::EntityMotion> stillMotions; ///< ... while they are static in the world
     std::vector<shader::EntityMotion> movingMotions;
     RowChanges changes; ///< of `entities`
     /// Rows that something moves or deforms, that have a MotionBlur's scale, or that were written
-    /// to since the rows were listed; in rising order. The others stand still in the world.
+    /// to since the rows were listed; in rising order. The others are static in the world.
     std::vector<uint32_t> movingRows;
-    /// Changes whenever other rows stand still; no two frame extractors have the same.
+    /// Changes whenever other rows are static; no two frame extractors have the same.
     uint64_t stillSet = 0;
     /// Changes whenever a static row changes, also in eye space, as when the camera
-    /// moves; except for EntityRow::instanceMask, which rows that stand still in the world have
+    /// moves; except for EntityRow::instanceMask, which rows that are static in the world have
     /// only if the camera moves.
     uint64_t stillRevision = 0;
     /// With Jittered::Static: whether the camera is where it was one frame ago, and stays there.

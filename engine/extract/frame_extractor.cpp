@@ -327,7 +327,7 @@ bool FrameExtractor::placeMoving(const Frame& frame) {
     }
     drawMoving(frame.layout);
     if (quiet > kMaxQuiet + mRows.size() / 8)
-        mListed = false; // they stand still again from the next frame on
+        mListed = false; // they are static again from the next frame on
     return true;
 }
 

@@ -51,7 +51,7 @@ struct CameraPose {
     double s
 );
 
-/// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
+/// All that the rows of things that are static in the world depend on. Doubles only, no padding:
 /// equal bytes give equal rows.
 struct ViewMatrices {
     math::dmat4 clipFromWorldOpen{1.0};

@@ -14,14 +14,15 @@ namespace shutter::extract {
 
 namespace {
 
-/// Of an index below 2^32 as a fraction: van der Corput's sequence.
+/// Returns a term of van der Corput's sequence, [0, 1).
 double reverseBits(uint32_t index) {
     return shader::sobolPoint(index).x * 0x1p-32;
 }
 
-/// Of one set. Sobol's first two dimensions in the lens with the index as time are a (0, m, 3)-net;
-/// aligned blocks of the sequence are nets, and so are runs of blocks. Where a block is not whole,
-/// its places move within their order along each axis until they are even again, about the middle.
+/// Returns the places of one set. Sobol's first two dimensions in the lens with the index as time
+/// are a (0, m, 3)-net; aligned blocks of the sequence are nets, and so are runs of blocks. Where a
+/// block is not whole, its places move within their order along each axis until they are even
+/// again, about the middle.
 std::vector<math::dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
     const uint32_t block = std::bit_ceil(samples);
     const double half = 0.5 / (block * shader::kLensSets);

@@ -33,7 +33,7 @@ inline constexpr double kOddPlace = 0.381966011250105;
 using MatrixAt = std::function<math::dmat4(double s)>;
 
 struct MotionKeys {
-    /// One: it stands still. Else 2^n + 1 at uniform shutter times, both ends included.
+    /// One: it is static. Else 2^n + 1 at uniform shutter times, both ends included.
     std::vector<shader::MotionKey> keys;
     math::Bounds swept;         ///< eye space: holds the box at every shutter time
     bool followsExactly = true; ///< false: kMaxKeyIntervals were not enough

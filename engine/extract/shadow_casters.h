@@ -42,7 +42,7 @@ struct CasterInstant {
     float shapeShift = 0.0f; ///< shader::ShadowDraw's
 };
 
-/// A caster over the exposure; no instants where it stands still.
+/// A caster over the exposure; no instants where it is static.
 struct CasterPath {
     std::vector<CasterInstant> instants; ///< of equal shares of the light
     Sphere swept;                        ///< around the caster at all of them

@@ -37,7 +37,7 @@ struct MoverLayer {
 );
 
 /// The most instants per run for which no run errs by more than kMostRunError and each layer is
-/// still used. 0: the mover stands still.
+/// still used. 0: the mover is static.
 /// \param layers the raster instant's, then those of equal parts of the exposure
 [[nodiscard]] uint32_t findRunInstants(
     const ShadowCaster& caster,

@@ -20,7 +20,7 @@ using math::dmat4;
 using math::dvec3;
 
 constexpr uint32_t kPathIntervals = 16;
-/// Of a lens that is focused or zooms during the exposure.
+/// Intervals of the exposure in which a lens that is focused or zooms counts as linear.
 constexpr uint32_t kLensIntervals = 64;
 /// Boxes grow by this much of their largest coordinate: rounding of keys and of the ray's way into
 /// object space must not leave a surface outside of its box.

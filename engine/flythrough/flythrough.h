@@ -34,9 +34,9 @@ struct FlythroughKey {
     std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
     /// Vertical, of the picture, degrees, [0.01, 179]; in all keys or none.
     std::optional<double> fieldOfView;
-    /// Of the lens (scene::CameraLens), metres, [1e-4, 1e9]; in all keys or none.
+    /// Focus distance of the lens (scene::CameraLens), metres, [1e-4, 1e9]; in all keys or none.
     std::optional<double> focusDistance;
-    /// Of the lens, [0.01, 1e9]; in all keys or none.
+    /// F-number of the lens, [0.01, 1e9]; in all keys or none.
     std::optional<double> fStop;
     std::optional<FlythroughShutter> shutter;
     /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp says between keys.

@@ -23,7 +23,7 @@ struct LayerTables {
     /// By row of the raster's entity table: the same entity's row in this frame's raster, or
     /// shader::kNoRasterRow; empty for this frame's raster itself.
     std::vector<uint32_t> rasterRows;
-    /// What stands still in the world is where the raster has it, at every instant.
+    /// What is static in the world is where the raster has it, at every instant.
     bool isStill = false;
     bool deforms = false; ///< a mover is shader::kDeformedMover
 };
@@ -49,7 +49,7 @@ pictureFromView(const dmat4& clipFromView, const uvec2& sizePx, const dvec2& jit
 /// leaves the range of single precision.
 [[nodiscard]] shader::InstantMotion makeInstantMotion(const dmat4& instantFromRaster);
 
-/// Builds the tables of one layer. To begin with, all rows stand still in the world.
+/// Builds the tables of one layer. To begin with, all rows are static in the world.
 class LayerBuilder {
   public:
     /// \param layerPicture picture space from the world when the layer was drawn

@@ -58,7 +58,7 @@ dvec3 normalizeOrZero(const dvec3& vector) {
     return size > 0.0 ? vector / size : dvec3(0.0);
 }
 
-/// Of axes of length 1 or 0: at right angles, and not mirrored.
+/// Whether axes of length 1 or 0 are at right angles and not mirrored.
 bool isRightHanded(const dmat3& axes) {
     const double shear = std::max(
         {std::abs(glm::dot(axes[0], axes[1])),

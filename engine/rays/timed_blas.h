@@ -2,7 +2,7 @@
 // Deformed meshes for rays that each have their own time. A shape that changes has its vertices at
 // each key, and for each two keys next to each other a structure of boxes, one a triangle over its
 // straight way from one key to the other: a ray that meets a box meets the triangle as it is at the
-// ray's own time. A shape that stands still is a mesh like any other.
+// ray's own time. A shape that is static is a mesh like any other.
 #pragma once
 
 #include "engine/extract/timed_tables.h"

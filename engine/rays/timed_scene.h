@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene for rays that each have their own time. What stands still are instances of triangles as
+// The scene for rays that each have their own time. Static things are instances of triangles as
 // ever. What moves is a box over its whole way; a ray that meets the box goes, with the entity's
 // placement at the ray's own time, into object space and on through the mesh's own structure. No
 // time is quantised, and nothing is rebuilt for another time.

@@ -10,7 +10,7 @@ namespace shutter::rays {
 
 namespace {
 
-/// Calls `use` with each row that stands still.
+/// Calls `use` with each row that is static.
 template <class Use> void forEachStill(const extract::ExtractedFrame& frame, Use&& use) {
     size_t next = 0; // of movingRows
     for (uint32_t row = 0; row < frame.changes.ownRows; ++row) {
@@ -102,7 +102,7 @@ void FrameTlas::orderStill(const extract::ExtractedFrame& frame, const gpu_scene
 bool FrameTlas::updateStill(
     const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene
 ) {
-    // Where the camera moves, what stands still has masks that change with what else there is.
+    // Where the camera moves, what is static has masks that change with what else there is.
     if (mStillRevision == frame.stillRevision && frame.stillMotions.empty())
         return false;
     if (mStillSet != frame.stillSet)

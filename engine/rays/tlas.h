@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The top-level acceleration structures of rays at the raster instant. They are built when an
-// instance changed, and what stands still in the world may have one of its own, which few movers
+// instance changed, and what is static in the world may have one of its own, which few movers
 // then leave as it is.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace shutter::rays {
 
-/// Fewest instances that stand still in a level of their own: a ray goes through two levels then,
+/// Fewest instances that are static in a level of their own: a ray goes through two levels then,
 /// which costs more than building a small one anew does.
 inline constexpr size_t kStaticTlasInstances = 256;
 
@@ -67,7 +67,7 @@ class FrameTlas {
     Level mStill;                            ///< holds all, unless the movers are apart
     Level mMoving;
     std::optional<InstanceList> mMovingInstances;
-    std::vector<uint32_t> mStillOrder; ///< rows that stand still, in spatial order
+    std::vector<uint32_t> mStillOrder; ///< rows that are static, in spatial order
     uint64_t mStillSet = 0;            ///< ExtractedFrame's, of mStillOrder
     uint64_t mStillRevision = 0;       ///< ExtractedFrame's, of mStill; 0: it holds others too
 };

@@ -30,7 +30,8 @@ struct ParticleTargets {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     math::dvec2 jitterPx{0.0};          ///< of the colour (ViewRequest::jitterPx)
-    /// Of the blurred picture that is drawn on. Without, the raster's depth hides everywhere.
+    /// Instants of the blurred picture that is drawn on. Without, the raster's depth hides
+    /// everywhere.
     std::optional<ParticleInstants> instants{};
 };
 

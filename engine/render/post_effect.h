@@ -91,7 +91,7 @@ struct ExtractContext {
     const extract::ExtractedFrame& frame;
     const ViewFacts& facts;
     uint32_t slot = 0; ///< PostContext::slot
-    /// Of the exposure's other end (ViewRequest::instant); empty unless the effect reads it.
+    /// Drawn at the exposure's other end (ViewRequest::instant); empty unless the effect reads it.
     std::optional<ExtractedRaster> secondRaster{};
     std::optional<ExtractedRaster> lastRaster{}; ///< of the frame before; likewise
     /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
@@ -122,7 +122,7 @@ struct PostContext {
     const GBuffer& gbuffer;
     const graph::RayScene* rays;       ///< null where no effect asked for rays
     const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
-    /// Of the exposure's other end (ViewRequest::instant); null unless the effect reads it.
+    /// Drawn at the exposure's other end (ViewRequest::instant); null unless the effect reads it.
     const OtherRasterView* secondRaster = nullptr;
     const OtherRasterView* lastRaster = nullptr; ///< of the frame before; likewise
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it

@@ -37,8 +37,8 @@ class ClipJumps {
 
     [[nodiscard]] bool empty() const { return mPlaces.empty() && mShapes.empty(); }
 
-    /// Of what places the entity, or its joints, and of what deforms its mesh; in rising order,
-    /// some of them at which nothing is seen to jump.
+    /// Returns jumps of what places the entity, or its joints, or deforms its mesh; in rising
+    /// order, some of them at which nothing is seen to jump.
     [[nodiscard]] std::vector<Jump> of(const World& world, ecs::Entity entity) const;
 
   private:

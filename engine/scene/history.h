@@ -26,7 +26,7 @@ struct TimeSpan {
 /// from there. Properties that a clip or a path tells still win: put such an entity under a parent
 /// and teleport that.
 void teleport(World& world, ecs::Entity entity, const math::Transform& transform, double seconds);
-/// As teleport(), of a camera, and everything stands still in that frame.
+/// As teleport(), of a camera, and everything is static in that frame.
 void cutTo(World& world, ecs::Entity camera, const math::Transform& transform, double seconds);
 /// The picture changes to this camera, or what it shows is new in another way.
 void cut(World& world, ecs::Entity camera, double seconds);

@@ -237,7 +237,7 @@ class Looks {
 
     [[nodiscard]] Span span(size_t key) const { return {mPath, mShot, key, mUp}; }
 
-    /// As the path comes to a key; what stands still counts as the time before it.
+    /// As the path comes to a key; what is static counts as the time before it.
     [[nodiscard]] Look before(size_t key) const {
         Look look;
         for (size_t i = key; i > mShot.first && !look.isWhole(); --i)

@@ -74,7 +74,7 @@ cutPoints(const std::vector<math::ResponsePoint>& points, double from, double to
     return part;
 }
 
-/// Of the exposure's shutter, or of the part that the exposure is.
+/// Returns the response of the exposure's shutter, or of the part that the exposure is.
 std::vector<math::ResponsePoint> listPoints(const ExposureInterval& exposure) {
     std::vector<math::ResponsePoint> points = listPoints(exposure.shutter.response);
     if (!exposure.whole)

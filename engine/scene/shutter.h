@@ -71,10 +71,11 @@ struct ExposureInterval {
     double frameSeconds = 0.0; ///< since the frame before, 0 or more
     CameraShutter shutter{};
     MotionCap cap{}; ///< of this frame; Renderer::measureMotionCap() finds it
-    /// Of the frame, if this is a part of its exposure (takePart()); nothing: this is all of it.
+    /// Times of the whole exposure, if this is a part of one (takePart()); nothing: this is all of
+    /// it.
     std::optional<ExposureTimes> whole{};
 
-    /// Of the frame: what its events, scales and number go by.
+    /// Returns the whole exposure, by which events, scales and the frame's number go.
     [[nodiscard]] ExposureTimes frame() const {
         return whole.value_or(ExposureTimes{open, raster, close});
     }

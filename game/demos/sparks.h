@@ -9,15 +9,15 @@
 
 namespace shutter::game {
 
-/// Of metal that is struck: glows, falls and dies within half a second.
+/// Struck metal: its sparks glow, fall and die within half a second.
 [[nodiscard]] scene::ParticleEmitter makeSparks(uint32_t seed);
 /// Under a brake, along the entity's +X.
 [[nodiscard]] scene::ParticleEmitter makeBrakeSparks(uint32_t seed);
 /// Behind a wheel that slides.
 [[nodiscard]] scene::ParticleEmitter makeDust(uint32_t seed);
-/// Of a plate that a ball hits, from the ball.
+/// Splinters of a plate that a ball hits, away from the ball.
 [[nodiscard]] scene::ParticleEmitter makeSplinters(uint32_t seed);
-/// Of the same hit: far brighter than the picture, and gone within a tenth of a second.
+/// Flash of the same hit: far brighter than the picture, and gone within a tenth of a second.
 [[nodiscard]] scene::ParticleEmitter makeFlash(uint32_t seed);
 
 /// Emits at once. The entity has an emitter (CHECKed); bursts that nothing is left of are dropped.

@@ -70,7 +70,7 @@ struct DumpFrame {
 
 [[nodiscard]] uint32_t texelBytes(Texels texels);
 
-/// Of an image of DumpedDraws.
+/// Names an image of DumpedDraws.
 [[nodiscard]] std::string nameDrawnImage(uint32_t part, bool isOpacity);
 
 /// Reads what a frame's file says. Error: names the file, the line and the field.

@@ -216,7 +216,7 @@ class PictureDrawer {
     planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const;
     [[nodiscard]] core::Status
     submitPart(const scene::World& world, const PictureRequest& request, const Part& part);
-    /// Of the whole exposure, or of a part of it.
+    /// Draws the whole exposure, or a part of it.
     [[nodiscard]] core::Status
     submitOwnFrame(const scene::World& world, const PictureRequest& request, const Part& part);
     [[nodiscard]] core::Status

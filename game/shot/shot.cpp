@@ -106,7 +106,7 @@ struct ClipFlight {
     ecs::Entity camera;
 };
 
-/// Of the clips that --flythrough names, the first that moves --camera's camera, or any.
+/// Finds the first clip that --flythrough names and that moves --camera's camera, or any.
 core::Result<ClipFlight> findClipFlight(const scene::World& world, const ShotOptions& options) {
     const std::vector<uint32_t> clips = findClips(world, options.flythroughClip);
     if (clips.empty())

@@ -50,7 +50,7 @@ class Accumulate : public render::PostEffect {
 
     void setFrame(const SummedFrame& frame) { mFrame = frame; }
 
-    /// Of as many frames that count alike. \param index below `count`
+    /// Chooses one of `count` frames that count alike. \param index below `count`
     void setInstant(uint32_t index, uint32_t count);
 
     [[nodiscard]] std::string name() const override { return "accumulate"; }

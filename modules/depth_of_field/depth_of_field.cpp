@@ -119,7 +119,7 @@ void DepthOfField::extract(render::ExtractContext& context) {
     const scene::CameraLens lens = context.motion.cameraLens(s);
     mInverseFocus = 1.0 / lens.focusDistance;
     mConfusionPx = 0.0;
-    // Of an orthographic camera, which has no lens, it is 0.
+    // It is 0 for an orthographic camera, which has no lens.
     const double pixelsAtOne = context.frame.constants.pixelFootprint.x;
     if (pixelsAtOne > 0.0)
         mConfusionPx = scene::computeLensRadius(lens, context.motion.cameraYFov(s)) / pixelsAtOne;

@@ -12,8 +12,8 @@ namespace shutter::depth_of_field {
 struct Filter {
     const char* name;        ///< of its file
     const char* publication; ///< authors and year
-    /// Of a compute shader that reads the picture, motion and depth, and reach (tiles.comp), and
-    /// writes the filtered picture.
+    /// Code of a compute shader that reads the picture, motion and depth, and reach (tiles.comp),
+    /// and writes the filtered picture.
     std::span<const uint32_t> spirv;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the surfaces that a raster image holds are seen at other instants of the exposure. A mover
-// is a rigid body with a motion of its own; all that stands still in the world is one, the sky
+// is a rigid body with a motion of its own; all that is static in the world is one, the sky
 // another.
 //
 // Picture space at a time is (x q, y q, depth, 1): x, y pixels from the top left corner, depth
@@ -25,7 +25,7 @@ struct LayerMotion {
     uvec2 movers;  // address of uint[]: by row of the raster's entity table, and one for the sky
     uvec2 motions; // address of InstantMotion[]: for each mover one per instant
     uint rowCount; // of the entity table
-    uint isStill;  // 1: what stands still in the world is where the raster has it, at all instants
+    uint isStill;  // 1: what is static in the world is where the raster has it, at all instants
 };
 
 /// What a frame's rasters and the one of the frame before hold.
@@ -41,14 +41,15 @@ struct InstantMotions {
     // Address of vec4[]: how far each instant's place of the lens moves what is seen, pixels. What
     // a pinhole in its middle sees at depth z is seen xy + zw / z from there. 0: there is no lens.
     uvec2 lens;
-    // Of the lens at the raster's time: depth z has the circle of confusion 2 |x - y / z|, pixels.
+    // Lens at the raster's time: depth z has a circle of confusion of diameter 2 |x - y / z|,
+    // pixels.
     vec2 confusion;
     uint isPerspective; // 1: the camera is; 0: orthographic
     uint padding0;
 };
 
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.
-SHUTTER_CONST uint kWorldMover = 0u; // stands still in the world
+SHUTTER_CONST uint kWorldMover = 0u; // is static in the world
 SHUTTER_CONST uint kSkyMover = 1u;
 /// Its shape changes: its pixels' motion vectors say where it is.
 SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;

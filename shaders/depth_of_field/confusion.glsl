@@ -8,7 +8,7 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Of a disc of radius 1.
+/// Area of a disc of radius 1.
 SHUTTER_CONST float kUnitDiscArea = 3.14159265f;
 
 /// Below it a circle of confusion lies within the pixel.

@@ -15,7 +15,7 @@ struct Tap {
     float confusion; // radius, signed
 };
 
-/// Of the pixel that holds the place; the border goes on outside.
+/// Fetches the pixel that holds the place; the border goes on outside.
 Tap takeTap(vec2 place) {
     ivec2 pixel = clamp(ivec2(floor(place)), ivec2(0), ivec2(params.sizePx) - 1);
     return Tap(
@@ -24,5 +24,5 @@ Tap takeTap(vec2 place) {
     );
 }
 
-/// Of the pixel's disc of taps, radians.
+/// Rotation of the pixel's disc of taps, radians.
 float findTurn(ivec2 pixel) { return 6.28318531f * unitFloat(hashPixel(uvec2(pixel), 0u, 0u)); }

@@ -31,7 +31,7 @@ SHUTTER_INLINE float metresOfDepth(PrepareTable table, float value) {
     return isFinite(metres) && metres > 0.0f ? min(metres, kSkyDepth) : kSkyDepth;
 }
 
-/// Displacement in a frame, pixels, of a place that stands still in the world: what the camera's
+/// Displacement in a frame, pixels, of a place that is static in the world: what the camera's
 /// own motion makes of it. 0 where it cannot be told.
 SHUTTER_INLINE vec2 motionOfCamera(PrepareTable table, vec2 place, float metres) {
     bool isSky = metres >= kSkyDepth;

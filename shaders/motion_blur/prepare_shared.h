@@ -24,7 +24,7 @@ SHUTTER_CONST uint kPrepareDepthIsThird = 64u; // depth is the third channel of 
 
 struct PrepareTable {
     /// Rows of the affine map from picture space (instant_motion_shared.h) now to that of the frame
-    /// before, for what stands still in the world.
+    /// before, for what is static in the world.
     vec4 beforeFromNow[3];
     PrepareArea vectors;
     PrepareArea depth;

@@ -99,7 +99,7 @@ vec3 interpolatePosition(uvec2 positions, uvec3 corners, vec3 w) {
            array.values[corners.z].xyz * w.z;
 }
 
-/// \param objectPosition of the point, where its shape stands still
+/// \param objectPosition of the point, where its shape is static
 PointPath fetchPath(FrameRef frame, HitId id, vec3 objectPosition) {
     uint first = EntityTable(frame.value.entities).rows[id.entity].firstGeometry;
     Geometry geometry = GeometryTable(frame.value.geometries).rows[first + id.geometry];

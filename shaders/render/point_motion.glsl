@@ -7,7 +7,7 @@
 #include "render/motion.glsl"
 
 /// Displacement over the whole exposure in pixels (motionFromClip).
-/// \param objectPosition of the point, where its shape stands still
+/// \param objectPosition of the point, where its shape is static
 vec2 motionOfPoint(FrameRef frame, HitId id, vec3 objectPosition) {
     EntityTable entities = EntityTable(frame.value.entities);
     uint motion = entities.rows[id.entity].motion;

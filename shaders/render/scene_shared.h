@@ -22,7 +22,7 @@ struct Vertex {
     uvec2 color; // four half floats, linear RGBA
 };
 
-/// EntityRow::motion of an entity that stands still in the picture.
+/// EntityRow::motion of an entity that is static in the picture.
 SHUTTER_CONST uint kNoMotion = 0xFFFFFFFFu;
 
 /// One drawn entity at the raster instant; its index in the table is the mesh id.
@@ -48,7 +48,7 @@ struct Geometry {
     uvec2 vertices;       // address of Vertex[]
     uvec2 indices;        // address of uint[]
     uvec2 openPositions;  // address of vec4[]: xyz object space at shutter open, w 1, one a vertex;
-                          // 0: the shape stands still
+                          // 0: the shape is static
     uvec2 closePositions; // the same at shutter close
     uint material;
     uint firstIndex; // in the scene's index buffer

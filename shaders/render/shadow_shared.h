@@ -72,7 +72,7 @@ struct ShadowMover {
     vec4 shape[3];     // rows of the form whose unit ellipsoid is the mover's box: alignPointRay()
     uint entity;       // row of the entity table
     uint firstInstant; // in the table of instants: instantCount rows, then partCount
-    uint instantCount; // 1: it stands still in the exposure; else ShadowConstants::instantCount
+    uint instantCount; // 1: it is static in the exposure; else ShadowConstants::instantCount
     uint firstLayer;   // counted from ShadowLight::firstLayer: the raster instant's
     /// Equal parts of the exposure that have a layer each, as in the middle of the part; they
     /// follow the raster instant's. 0: that one is for all.

@@ -56,7 +56,7 @@ struct Seen {
     uint id;
 };
 
-/// Of the entity that covers most of the samples; of two that cover as many, the nearer.
+/// Finds the entity that covers most of the samples; of two that cover as many, the nearer.
 /// \param among a bit for each sample that counts, at least one
 Seen findEntity(vec3 motionDepths[kSampleCount], uint ids[kSampleCount], uint among) {
     Seen found = Seen(0, 0.0f, 0u);

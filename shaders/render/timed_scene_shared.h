@@ -16,10 +16,10 @@ struct MotionKey {
 /// Beside each row of the entity table.
 struct TimedRow {
     uvec2 keys;         // address of MotionKey[]: eyeFromObject
-    uint keyCount;      // 1: it stands still; else uniform over s, both ends included
+    uint keyCount;      // 1: it is static; else uniform over s, both ends included
     uint firstGeometry; // as EntityRow's
-    uvec2 meshScene; // address of the mesh's own top level, object space; 0 where it stands still
-    uint deformationKeyCount; // 1: the shape stands still; else uniform over s, both ends included:
+    uvec2 meshScene;    // address of the mesh's own top level, object space; 0 where it is static
+    uint deformationKeyCount; // 1: the shape is static; else uniform over s, both ends included:
                               // then meshScene is the address of uvec2[], a top level for each two
                               // keys, and the geometries' Vertex[] hold one key's vertices behind
                               // the other's

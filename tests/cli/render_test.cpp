@@ -163,7 +163,7 @@ TEST_F(CliRender, AllIntermediatesLieBesideThePicture) {
     const image::Image motion = read("a.motion.exr");
     EXPECT_EQ(motion.width, 64u);
     EXPECT_EQ(motion.channels, 2u);
-    // 38 px of 1280 to the right, 14 of 720 down, at the vase; the wall stands still.
+    // 38 px of 1280 to the right, 14 of 720 down, at the vase; the wall is static.
     float furthest = 0.0f;
     for (uint32_t y = 0; y < motion.height; ++y)
         for (uint32_t x = 0; x < motion.width; ++x)

@@ -509,7 +509,7 @@ TEST_F(EmbeddedConventions, SharesOfTheMotionAreBlurred) {
 }
 
 /// HostInputs::showsInputs: panels cover a part of the picture, and of nothing else. The left half
-/// moves by itself; the camera stands still.
+/// moves by itself; the camera is static.
 class EmbeddedOverlay : public EmbeddedConventions {
   protected:
     void SetUp() override {

@@ -267,7 +267,7 @@ TEST_F(ScreenFilters, OwnVelocityIsTheMeanAlongThePixelsMotionInEveryPhase) {
 }
 
 TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
-    // A red post that stands still before a green wall that moves.
+    // A red post that is static before a green wall that moves.
     const auto isPost = [](uint32_t x) { return x >= 22 && x < 26; };
     Scene scene;
     scene.color = makeMotion(kWidth, kHeight, [&](uint32_t x, uint32_t) {
@@ -312,7 +312,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
 }
 
 TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
-    // A red slab above moves up, one below moves down, what is between stands still; the dominant
+    // A red slab above moves up, one below moves down, what is between is static; the dominant
     // motion runs across. At shutter close each slab was over the middle before.
     Scene scene;
     for (uint32_t y = 0; y < kHeight; ++y)

@@ -606,7 +606,7 @@ TEST_F(ResolvedDeform, WhereNothingDeformsNothingOfItIsInTheFrame) {
     const auto countSearched = [](const render::FrameResult& frame) {
         return frame.statistics.counters.at("blocks mixed");
     };
-    EXPECT_EQ(countSearched(still), countSearched(without)) << "what stands still is not searched";
+    EXPECT_EQ(countSearched(still), countSearched(without)) << "what is static is not searched";
     EXPECT_GT(countSearched(moving), countSearched(without));
     EXPECT_EQ(still.statistics.transientBytes, without.statistics.transientBytes);
     EXPECT_GT(moving.statistics.transientBytes, without.statistics.transientBytes);

@@ -211,7 +211,7 @@ TEST_F(ResolvedHistory, WhereNothingIsLookedUpNothingIsDrawnForIt) {
 
 TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
     Scene scene;
-    // It stands still until the shutter opens for frame 0.
+    // It is static until the shutter opens for frame 0.
     scene::PathMotion path;
     path.interpolation = scene::PathInterpolation::Linear;
     path.keys.resize(3);
@@ -295,7 +295,7 @@ TEST_F(ResolvedHistory, WhatAppearsHasNoPastAndHidesNothingBefore) {
     HistoryFrames frames(device(), scene);
     (void)frames.at(-1);
     scene::show(scene.world(), scene.box, -0.25 / kFramesPerSecond);
-    // It stands still in this frame: all that is seen is in this frame's raster.
+    // It is static in this frame: all that is seen is in this frame's raster.
     const auto drawn = frames.at(0);
     EXPECT_EQ(countFromLast(drawn), 0u);
     EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));

@@ -60,7 +60,7 @@ class PhotoMode {
 class PhotoCamera {
   public:
     /// Creates its entity where `stageCamera` is; a camera that is out already stays as it is.
-    /// \param seconds of the picture, at which the world stands still
+    /// \param seconds of the picture, at which the world is static
     void take(scene::World& world, ecs::Entity stageCamera, double seconds);
 
     /// Destroys its entity, if there is one.

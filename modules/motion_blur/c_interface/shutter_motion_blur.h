@@ -224,7 +224,7 @@ typedef struct ShutterBlurCameras {
 
 /* The camera at one shutter time, for "resolved". Between keys, translation is straight, rotation
  * takes the shorter arc, and scale, shear and projection are linear; before the first key and after
- * the last one all stands still. Three keys (open, raster, close) are enough for what turns evenly,
+ * the last one all is static. Three keys (open, raster, close) are enough for what turns evenly,
  * by less than half a turn from key to key. */
 typedef struct ShutterBlurCameraKey {
     /* Shutter time: 0 open, 1 close. One outside of [0, 1] counts for what lies between it and the
@@ -236,7 +236,7 @@ typedef struct ShutterBlurCameraKey {
     double clipFromView[16];
 } ShutterBlurCameraKey;
 
-/* An entity that may not stand still in the world, for "resolved". */
+/* An entity that may not be static in the world, for "resolved". */
 typedef struct ShutterBlurMover {
     uint32_t row; /* its value in `entityId`, below rowCount */
     /* World from the entity's own space, 16 numbers for each camera key: affine, with any scale;
@@ -400,7 +400,7 @@ typedef struct ShutterBlurInputs {
 
     /* For "resolved": */
     /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
-     * stands still in the world, and rowCount does not count. */
+     * is static in the world, and rowCount does not count. */
     ShutterBlurImage entityId;
     uint32_t noEntity; /* its value where nothing is */
     /* [1, 2^24 - 1]. Values are rows below it; a pixel of another one, but noEntity, counts as
@@ -411,7 +411,7 @@ typedef struct ShutterBlurInputs {
      * exposure is: exposureShare scales vectors. */
     const ShutterBlurCameraKey* keys;
     uint32_t moverCount;
-    /* In any order, each row once. A row without one stands still in the world: where it is, and in
+    /* In any order, each row once. A row without one is static in the world: where it is, and in
      * the frame before. One that is listed but does not move costs next to nothing. */
     const ShutterBlurMover* movers;
     /* rowCount ids that entities have in every frame, so that history finds them in whatever row

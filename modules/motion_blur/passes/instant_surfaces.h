@@ -12,7 +12,7 @@
 
 namespace shutter::motion_blur {
 
-/// Of the buffer.
+/// Size of the buffer, bytes.
 [[nodiscard]] inline VkDeviceSize surfaceBytes(const shader::InstantSurfaces& head) {
     const VkDeviceSize pixels = VkDeviceSize(head.sizePx.x) * head.sizePx.y;
     return sizeof(head) + pixels * shader::surfaceWordsPerPixel(head) * sizeof(uint32_t);

@@ -21,7 +21,7 @@ namespace {
 
 using graph::Access;
 
-/// Of a surface's second word: resolved.glsl has it as kKeyBits.
+/// Bits of a surface's second word that hold its key: kKeyBits of resolved.glsl.
 constexpr uint32_t kKeyMask = 0xFFFFFFu;
 
 gpu::ComputePipelineDesc describeResolve(bool listsPixels) {

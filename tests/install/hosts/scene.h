@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What both hosts draw, and the Vulkan around it, in the words that C11 and C++17 share: a striped
- * wall that stands still, and a square before it that moves by kMovedPx to the right during the
+ * wall that is static, and a square before it that moves by kMovedPx to the right during the
  * exposure, as images that a renderer would have. The camera is at the origin and looks along -Z.
  *
  * With HOST_USES_VOLK the host's functions are volk's variables. */

@@ -439,7 +439,7 @@ TEST_F(ExtractionHistory, RaysMeetWhatAppearsFromThenOnAndWhatIsHiddenUntilThen)
     EXPECT_FALSE(frame.moves) << "a raster shows it all the time or never";
     auto keys = computeTables(frame).rows.at(0).keys;
     EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.69)));
-    EXPECT_EQ(interpolateKeys(keys, 0.71), interpolateKeys(keys, 1.0)) << "it stands still";
+    EXPECT_EQ(interpolateKeys(keys, 0.71), interpolateKeys(keys, 1.0)) << "it is static";
     EXPECT_TRUE(isDrawable(interpolateKeys(keys, 1.0)));
     world.registry.remove<scene::Appeared>(mover);
     scene::hide(world, mover, 0.4);

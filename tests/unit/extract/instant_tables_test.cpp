@@ -191,7 +191,7 @@ TEST_F(InstantTablesTest, WhatAppearsDuringTheExposureIsInBothOfItsRasters) {
     scene::appear(world, tumbler, 1.0 - 0.5 * kExposureSeconds);
     const InstantTables tables = computeWithSecond();
     ASSERT_TRUE(tables.second.has_value());
-    EXPECT_EQ(tables.second->movers.at(0), shader::kWorldMover) << "without a past it stands still";
+    EXPECT_EQ(tables.second->movers.at(0), shader::kWorldMover) << "without a past it is static";
 }
 
 TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {

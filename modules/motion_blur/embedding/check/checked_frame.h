@@ -161,9 +161,9 @@ void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Findi
 struct CheckPoint {
     glm::dvec2 place{0.0};  ///< pixels of the picture
     glm::dvec2 motion{0.0}; ///< pixels, by `pixelsPerUnit` and without declared jitter
-    glm::dvec2 camera{0.0}; ///< what the cameras imply for what stands still
+    glm::dvec2 camera{0.0}; ///< what the cameras imply for what is static
     float metres = 0.0f;
-    /// Depth from the camera of the frame before of what stands still; not above 0: behind it.
+    /// Depth from the camera of the frame before of what is static; not above 0: behind it.
     float metresBefore = 0.0f;
     bool isSky = false;
     uint32_t id = 0;

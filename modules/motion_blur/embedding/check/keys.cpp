@@ -70,7 +70,7 @@ class Keys {
     /// Whether the keys go the other way in time. Where the raster instant is in the middle, its
     /// own key does not tell.
     [[nodiscard]] bool areReversed(const Exposure& exposure) const {
-        // Of a longer exposure, one end may lie beyond the frame before.
+        // One end of a longer exposure may lie beyond the frame before.
         if (exposure.wantedPx < 2.0 * kSamePx || exposure.wantedPx > mFramePx)
             return false;
         const HostCamera end = at(exposure.time);

@@ -26,7 +26,7 @@ std::vector<double> listMiddles(uint32_t count, uint32_t sidePx) {
     return middles;
 }
 
-/// Of the middle before a place that has one behind it, too.
+/// Finds the middle before a place that has one behind it, too.
 std::optional<size_t> findBefore(const std::vector<double>& middles, double place) {
     const auto after = std::upper_bound(middles.begin(), middles.end(), place);
     if (after == middles.begin() || after == middles.end())

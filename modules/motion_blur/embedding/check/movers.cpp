@@ -232,7 +232,7 @@ class MoverCheck {
         if (mFrame.samples.size() < kLeastSamples || (!hasVectors() && !mLastDepth))
             return std::nullopt;
         const Matches said = judge({});
-        // What stops between the frames may stand still in all of the exposure, once.
+        // What stops between the frames may be static in all of the exposure, once.
         const bool areTheSame = mFrame.areTheSame() && mLast && mLast->areTheSame();
         if (areTheSame && (count(said, Match::Other) >= share(4) || movesSinceLast()))
             return describe("the same at all keys, although the row moves in the picture: "
@@ -312,7 +312,7 @@ class MoverCheck {
         return moved >= share(4);
     }
 
-    /// Of the last frame's raster instant.
+    /// Finds the matrix at the last frame's raster instant.
     [[nodiscard]] std::optional<dmat4> findLastMatrix(uint32_t row) const {
         const CheckFacts& facts = mLast->facts();
         for (const CheckFacts::Mover& mover : facts.movers)

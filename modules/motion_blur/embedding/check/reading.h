@@ -60,7 +60,7 @@ struct Reading {
 /// Nothing: there are fewer than `least`. Changes their order.
 [[nodiscard]] std::optional<double> takeMedian(std::vector<double>& values, size_t least);
 
-/// What is the same at all that stands still, beyond the camera's part: jitter.
+/// What is the same at all that is static, beyond the camera's part: jitter.
 void checkOffset(
     CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
 );

@@ -175,7 +175,7 @@ class Reprojection {
         );
     }
 
-    /// Where movers are listed, all else stands still by the host's own word.
+    /// Where movers are listed, all else is static by the host's own word.
     [[nodiscard]] std::optional<Finding> describeRest() const {
         const bool isSaid = mNow.facts.readsMotion && mNow.facts.hasIds;
         const size_t least = isSaid ? 4 : 7; // tenths
@@ -184,7 +184,7 @@ class Reprojection {
         return Finding{
             CheckKind::Unexplained,
             fmt::format(
-                "by the last frame's depth, {} of what stands still is not where "
+                "by the last frame's depth, {} of what is static is not where "
                 "cameras "
                 "say, and no single mistake explains it: hold viewFromWorld, viewFromWorldBefore, "
                 "clipFromView and depth against what the picture was drawn with",

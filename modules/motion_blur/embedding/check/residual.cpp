@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is left between vectors and cameras where things stand still: the same everywhere, as jitter
+// What is left between vectors and cameras where things are static: the same everywhere, as jitter
 // makes it, or what no known mistake explains.
 #include "modules/motion_blur/embedding/check/reading.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using math::dvec2;
 
-/// What is the same at nearly all that stands still, beyond the camera's part.
+/// What is the same at nearly all that is static, beyond the camera's part.
 std::optional<dvec2> findOffset(const Reading& said) {
     std::vector<double> xs;
     std::vector<double> ys;
@@ -72,7 +72,7 @@ void checkOffset(
         findings.push_back({CheckKind::VectorOffset, std::move(sentence)});
     };
     const std::string what = fmt::format(
-        "what stands still has ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
+        "what is static has ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
     );
     if (!now.facts.isNative && isDeclared && !convention.vectors.haveJitter &&
         isOffsetNear(offset, jitter))
@@ -115,7 +115,7 @@ using math::dvec2;
 constexpr double kLeastOffPx = 1.5;
 constexpr double kLeastOffShare = 0.15; ///< of what the camera moves
 
-/// What of the picture stands still, and how far off its vectors are.
+/// What of the picture is static, and how far off its vectors are.
 struct Still {
     size_t count = 0;
     std::vector<double> offPx; ///< where they are off
@@ -144,7 +144,7 @@ void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings) {
     if (!facts.hasVectors || !hasCameras(facts) ||
         hasFound(findings, {CheckKind::MoverUnlisted, CheckKind::Movers, CheckKind::DepthEqual}))
         return;
-    // Where movers are listed, all else stands still by the host's own word. Elsewhere a cockpit
+    // Where movers are listed, all else is static by the host's own word. Elsewhere a cockpit
     // may fill the picture, or a crowd, whose vectors are no camera's.
     const bool isSaid = facts.readsMotion && facts.hasIds;
     Still still = measure(readSaid(now), isSaid ? markMovers(facts) : std::vector<bool>());
@@ -155,7 +155,7 @@ void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings) {
     findings.push_back(
         {CheckKind::Unexplained,
          fmt::format(
-             "vectors are {:.3g} px off from what the cameras imply at {} of what stands still, "
+             "vectors are {:.3g} px off from what the cameras imply at {} of what is static, "
              "and no single mistake explains it: hold {}, clipFromView, depth and {} against what "
              "the picture was drawn with",
              takeMedian(still.offPx, 1).value_or(0.0),

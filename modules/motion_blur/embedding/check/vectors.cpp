@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion vectors against what the cameras imply where things stand still. What a host may have got
+// Motion vectors against what the cameras imply where things are static. What a host may have got
 // wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
 // do not now. What moves by itself agrees with neither, and so decides nothing.
 #include "modules/motion_blur/embedding/check/reading.h"
@@ -98,7 +98,7 @@ class Guesses {
         guess.haveCamera = !mSaid.haveCamera;
         guess.sentence =
             mSaid.haveCamera
-                ? "vectors are 0 where things stand still although the camera moves: the camera's "
+                ? "vectors are 0 where things are static although the camera moves: the camera's "
                   "part is not in them, set vectorsLackCamera = true"
                 : "vectors hold the camera's part already: set vectorsLackCamera = false";
         consider(guess);
