@@ -66,6 +66,47 @@ uint32_t getWord(std::span<const uint8_t> file, size_t at) {
     return word;
 }
 
+bool isArrayOf(const json& value, json::value_t type) {
+    return value.is_array() && std::all_of(value.begin(), value.end(), [&](const json& element) {
+               return element.type() == type;
+           });
+}
+
+/// Whether what is added to a file's document keeps it valid: it has one scene, one buffer, which
+/// is in the file, and lists where the writer expects them.
+bool canExtend(const json& root) {
+    const auto has = [&](const char* name, json::value_t type) {
+        return !root.contains(name) || isArrayOf(root[name], type);
+    };
+    for (const char* name :
+         {"accessors",
+          "animations",
+          "bufferViews",
+          "buffers",
+          "cameras",
+          "images",
+          "materials",
+          "meshes",
+          "nodes",
+          "samplers",
+          "scenes",
+          "skins",
+          "textures"})
+        if (!has(name, json::value_t::object))
+            return false;
+    if (!has("extensionsUsed", json::value_t::string) ||
+        root.value("buffers", json()).size() != 1 || root["buffers"][0].contains("uri") ||
+        root.value("scenes", json()).size() != 1 ||
+        !isArrayOf(root["scenes"][0].value("nodes", json::array()), json::value_t::number_unsigned))
+        return false;
+    const json nodes = root.value("nodes", json::array());
+    return std::all_of(nodes.begin(), nodes.end(), [](const json& node) {
+        const json extensions = node.value("extensions", json::object());
+        return (!node.contains("name") || node["name"].is_string()) && extensions.is_object() &&
+               extensions.value("KHR_physics_rigid_bodies", json::object()).is_object();
+    });
+}
+
 /// Kinematic: a physics engine must keep the velocity and let no gravity bend it.
 void setVelocity(json& node, const char* kind, glm::vec3 velocity) {
     json& motion = node["extensions"]["KHR_physics_rigid_bodies"]["motion"];
@@ -106,7 +147,7 @@ std::string GltfWriter::read(const std::filesystem::path& path) {
     constexpr size_t kHeader = 12;
     constexpr size_t kChunkHeader = 8;
     const std::string refusal =
-        fmt::format("{} is no binary glTF file with one buffer.", path.string());
+        fmt::format("{} is no binary glTF file with one scene and one buffer.", path.string());
     if (file.size() < kHeader + kChunkHeader || std::memcmp(file.data(), "glTF", 4) != 0) {
         return refusal;
     }
@@ -118,8 +159,7 @@ std::string GltfWriter::read(const std::filesystem::path& path) {
     const size_t binary = text + textBytes + kChunkHeader;
     const size_t binaryBytes = getWord(file, text + textBytes);
     json root = json::parse(file.data() + text, file.data() + text + textBytes, nullptr, false);
-    if (!root.is_object() || root.value("buffers", json::array()).size() != 1 ||
-        file.size() < binary + binaryBytes) {
+    if (!root.is_object() || !canExtend(root) || file.size() < binary + binaryBytes) {
         return refusal;
     }
     mRoot = std::move(root);

@@ -62,7 +62,7 @@ EdgeList declareList(graph::Graph& graph, const math::uvec2& sizePx) {
             data.pixels = create("edge pixels", pixels + 1);
         },
         [](const EdgeList& data, graph::PassContext& context) {
-            const std::array<uint32_t, 3> noGroups{0, 1, 1};
+            const std::array<uint32_t, 3> noGroups{0, 0, 1};
             const VkBuffer arguments = context.resources.buffer(data.arguments);
             vkCmdUpdateBuffer(context.commands, arguments, 0, sizeof(noGroups), noGroups.data());
             vkCmdFillBuffer(

@@ -31,7 +31,7 @@ constexpr PaperRow kPaperRows[] = {
 struct LensRow {
     const char* name;
     const char* description;
-    std::string_view filter; ///< of depth_of_field::listFilters()
+    std::string_view filter; ///< of depth_of_field::getFilter()
     std::string_view blur;   ///< of motion_blur::listMethods(); empty: none
     bool filtersBlurred;
 };

@@ -107,6 +107,8 @@ class Rounds {
         if (mStage.hasLens() && !point.method->hasLens &&
             point.method->family != game::MethodFamily::Sharp)
             return refuse(entry, "it draws what a pinhole sees, not what the lens does");
+        if (!mStage.hasLens() && point.method->lensFilter != nullptr)
+            return refuse(entry, "the camera has no lens");
         const double predicted = predict(entry);
         if (predicted > mOptions.limitSeconds) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));

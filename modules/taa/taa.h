@@ -30,8 +30,9 @@ inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 
 /// Where neither the camera nor the entity moves, a pixel is the mean of the first kPlaceCount
-/// frames in which it was seen; then it stays as it is. Both also while something moves in front,
-/// and whatever the frames' order: a sequence that resumes has the same bits. In frames in which
+/// frames in which it was seen; then it stays as it is, also while something moves in front. Sums
+/// do not depend on the frames' order, so a sequence that resumes has the same bits where nothing
+/// has moved in front or changed since it settled. In frames in which
 /// what is static may look different (another light, an entity that comes, goes, starts or stops,
 /// particles, glass that moves, tiles that a moving shadow may reach) it is clipped to the variance
 /// of the neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as

@@ -383,6 +383,9 @@ void chooseInstants(float way, inout Found found) {
     if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
 }
 
+/// Whether pixels of the block show two surfaces (fit planes).
+bool hasEdges(BlockSearch search) { return getPlane(search.block).keys == ~0u; }
+
 /// With a lens: the samples of one set are spread evenly over it in their order, so that none are left out
 /// but where all of them see the same.
 void chooseSets(Spread spread, inout Found found) {
@@ -473,7 +476,9 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     if (kHasLens) {
         if (isWanted) spread = measureSpread(search, lane);
         spread = shareSpread(spread, block);
-        if (spread.reach <= kStillReachPx) isWanted = false; // what it looks at is not asked for
+        // An edge is only smooth where it is searched; of other still blocks nothing is asked for.
+        if (isWanted && hasEdges(search)) spread.reach = max(spread.reach, 2.0f * kStillReachPx);
+        if (spread.reach <= kStillReachPx) isWanted = false;
     }
     uint middle = middleSet(method);
     Course course = Course(0u, vec2(0.0f), 0.0f);

@@ -232,6 +232,7 @@ struct PixelSearch {
     bool perspective;
     uint looks;  // index of the first BlockLook of its block
     uint set;    // of instants
+    bool hasOwnSet; // pixels of its block take turns in all sets
     vec2 inBlock; // from the block's centre
     bool isCrowded; // its tile is: what it may see is in no list
     uint partsPerInstant; // found once: software devices divide integers one by one
@@ -332,6 +333,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     float noise = 1.0f;
     if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uLooks[search.looks - 1u].perY);
     search.set = findSet(method, pixel, noise);
+    search.hasOwnSet = noise > 0.0f;
     search.isCrowded = kHasCrowds && isCrowded(search.tile);
     search.perspective = motions.value.isPerspective != 0u;
     search.partsPerInstant = partsPerInstant(method.instantCount);

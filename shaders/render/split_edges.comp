@@ -83,7 +83,8 @@ vec4 meanColor(vec4 colors[kSampleCount], uint among) {
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = (gl_WorkGroupID.y * kSplitRow + gl_WorkGroupID.x) * kSplitGroupSize +
+                 gl_LocalInvocationIndex;
     if (index >= uEdges.count) return;
     uint packed = uEdges.pixels[index];
     ivec2 pixel = ivec2(packed & 0xFFFFu, packed >> 16);

@@ -32,7 +32,11 @@ void main() {
     if (!isWhole) {
         uint index = atomicAdd(uEdges.count, 1u);
         uEdges.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16;
-        if (index % kSplitGroupSize == 0u) atomicAdd(uArguments.groups.x, 1u);
+        if (index % kSplitGroupSize == 0u) {
+            uint group = index / kSplitGroupSize;
+            if (group < kSplitRow) atomicAdd(uArguments.groups.x, 1u);
+            if (group % kSplitRow == 0u) atomicAdd(uArguments.groups.y, 1u);
+        }
         return;
     }
     imageStore(uColor, pixel, texelFetch(uColorSamples, pixel, 0));

@@ -14,6 +14,9 @@ SHUTTER_CONST uint kSampleCount = 4u;
 /// Pixels per work group of split_edges.comp.
 SHUTTER_CONST uint kSplitGroupSize = 64u;
 
+/// Work groups in a row of its dispatch: devices may allow no more than 65,535 along an axis.
+SHUTTER_CONST uint kSplitRow = 1024u;
+
 /// Place of a sample from the pixel's upper left corner (Vulkan specification, "Multisampling").
 SHUTTER_INLINE vec2 placeOfSample(uint index) {
     return vec2(

@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push {
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform usampler2D uEntityId;
 layout(binding = 2, rgba16f) uniform writeonly image2D uPicture;
-layout(binding = 3, rgba32i) uniform iimage2D uKept; // Kept: sum, bits of count
+layout(binding = 3, rgba32i) uniform iimage2D uKept; // Kept: sum, packCounts()
 layout(binding = 4, r32ui) uniform uimage2D uKeptRow;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RowTable {
@@ -73,6 +73,8 @@ Neighbourhood lookAround(ivec2 pixel) {
     return around;
 }
 
+const Kept kNothing = Kept(ivec3(0), 0.0f, 0u);
+
 /// What was kept of the pixel.
 struct Before {
     Kept kept;      // count 0: nothing that is still there
@@ -82,7 +84,7 @@ struct Before {
 };
 
 Before fetchBefore(ivec2 pixel) {
-    Before before = Before(Kept(ivec3(0), 0.0f), kNoRow, false, kNoRow);
+    Before before = Before(kNothing, kNoRow, false, kNoRow);
     if (params.hasLast == 0u) return before;
     before.stored = imageLoad(uKeptRow, pixel).r;
     if (before.stored == kNoRow) return before;
@@ -90,7 +92,7 @@ Before fetchBefore(ivec2 pixel) {
     before.row = RowTable(params.rows.nowRows).values[last];
     if (before.row == kNoRow) return before;
     ivec4 texel = imageLoad(uKept, pixel);
-    before.kept = Kept(texel.rgb, intBitsToFloat(texel.a));
+    before.kept = unpackKept(texel.rgb, texel.a);
     before.isDoubted = (before.stored & kDoubted) != 0u;
     return before;
 }
@@ -110,7 +112,7 @@ void main() {
     if (state == kMovingRow) {
         row = before.row;
     } else {
-        if (state == kNewRow || before.row == kNoRow) kept = Kept(ivec3(0), 0.0f);
+        if (state == kNewRow || before.row == kNoRow) kept = kNothing;
         bool settles = kept.count < float(kPlaceCount - 1u);
         Neighbourhood around = kNowhere;
         if (settles || isDoubted) around = lookAround(pixel);
@@ -125,7 +127,7 @@ void main() {
     imageStore(uPicture, pixel, vec4(color, current.a));
     // A settled picture writes nothing.
     if (kept != before.kept)
-        imageStore(uKept, pixel, ivec4(kept.sum, floatBitsToInt(kept.count)));
+        imageStore(uKept, pixel, ivec4(kept.sum, packCounts(kept)));
     uint keptRow = row == kNoRow ? kNoRow : row | (isDoubted ? kDoubted : 0u);
     if (params.hasLast == 0u || keptRow != before.stored)
         imageStore(uKeptRow, pixel, uvec4(keptRow, 0u, 0u, 0u));

@@ -93,7 +93,24 @@ SHUTTER_CONST float kSteps = 16777216.0f;
 struct Kept {
     ivec3 sum;   // of compressed colours, in steps of 1 / kSteps
     float count; // of frames in the sum, up to below kPlaceCount + 1; 0: none
+    uint left;   // frames that the mean still follows, because it was in doubt
 };
+
+/// Frames that a mean follows after a doubt: 2 % of what is out of date in it are left then.
+SHUTTER_CONST uint kFollowedFrames = 63u;
+
+/// In one word, whose last bits are a fraction of the count. \param count up to 255
+SHUTTER_INLINE int packCounts(Kept kept) {
+    return int(uint(kept.count * 256.0f + 0.5f) | kept.left << 16u);
+}
+
+SHUTTER_INLINE Kept unpackKept(ivec3 sum, int counts) {
+    Kept kept;
+    kept.sum = sum;
+    kept.count = float(uint(counts) & 0xFFFFu) / 256.0f;
+    kept.left = uint(counts) >> 16u;
+    return kept;
+}
 
 /// \param compressed [0, 2]
 SHUTTER_INLINE ivec3 toSteps(vec3 compressed) {
@@ -105,8 +122,8 @@ SHUTTER_INLINE vec3 meanOf(Kept kept) {
     return vec3(kept.sum) / (kept.count * kSteps);
 }
 
-/// A frame more, unless the pixel has had one for each place and is what it was: its mean stays,
-/// so that it does not flicker.
+/// A frame more, unless the pixel has had one for each place and has long been what it was: its
+/// mean stays, so that it does not flicker.
 /// \param current this frame's colour, compressed
 /// \param mayDiffer the surface may look different than before: the mean must lie among the moments
 /// \param moments of the neighbourhood, compressed YCoCg
@@ -115,17 +132,23 @@ SHUTTER_INLINE Kept addFrame(vec3 current, Kept last, bool mayDiffer, ColorMomen
     if (last.count < 1.0f) {
         kept.sum = toSteps(current);
         kept.count = 1.0f;
+        kept.left = 0u;
     } else if (mayDiffer) {
         Clipped clipped = clipToVariance(ycocgFromRgb(meanOf(last)), moments);
         vec3 mean = min(max(rgbFromYcocg(clipped.color), vec3(0.0f)), vec3(2.0f));
         // What had to be clipped is out of date, at least in part: fewer frames vouch for it.
         float trusted = max(1.0f, last.count / max(clipped.beyond * clipped.beyond, 1.0f));
-        trusted = min(trusted, float(kPlaceCount - 1u));
+        trusted = min(floor(trusted * 256.0f) / 256.0f, float(kPlaceCount - 1u)); // as it is packed
         kept.sum = toSteps(mean * trusted + current);
         kept.count = trusted + 1.0f;
+        kept.left = kFollowedFrames;
     } else if (last.count < float(kPlaceCount)) {
         kept.sum = last.sum + toSteps(current);
         kept.count = last.count + 1.0f;
+    } else if (last.left > 0u) {
+        kept.sum = toSteps(meanOf(last) * float(kPlaceCount - 1u) + current);
+        kept.count = float(kPlaceCount);
+        kept.left = last.left - 1u;
     }
     return kept;
 }

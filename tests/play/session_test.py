@@ -205,7 +205,8 @@ class Effects(PlayCase):
         bare, _ = shoot("", "--sky", "0")
         shadow_passes = {"shadow maps", "keep shadow maps"}
         for keys, option, passes in (
-            ("6", ("--aa", "taa"), {"split samples", "taa"}),  # the latter if the camera rests
+            # the last if the camera rests
+            ("6", ("--aa", "taa"), {"clear edges", "split samples", "split edges", "taa"}),
             ("7", ("--shadows", "sharp"), shadow_passes),
             ("77", ("--shadows", "blurred"), shadow_passes),
             ("9", ("--bloom", "0.04"), {"bloom down", "bloom up"}),

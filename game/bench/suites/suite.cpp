@@ -14,8 +14,11 @@
 #include "game/bench/suites/spin_script.h"
 #include "game/bench/suites/vase_flight.h"
 
+#include <fmt/ranges.h>
+
 #include <array>
 #include <initializer_list>
+#include <set>
 #include <system_error>
 
 namespace shutter::bench {
@@ -389,13 +392,14 @@ Suite makeLensSuite() {
 }
 
 core::Status provideRooms(Suite& suite, const std::filesystem::path& rooms) {
+    std::set<std::string> missing;
     std::erase_if(suite.cases, [&](Case& shot) {
         if (shot.room.empty())
             return false;
         const std::filesystem::path room = rooms / shot.room;
         std::error_code failure;
         if (!std::filesystem::is_regular_file(room, failure)) {
-            core::logWarning("case {} is left out: there is no '{}'", shot.name, room.string());
+            missing.insert(shot.room);
             return true;
         }
         shot.writeScene = makeWriter([room, furnish = shot.furnish] {
@@ -405,8 +409,11 @@ core::Status provideRooms(Suite& suite, const std::filesystem::path& rooms) {
         });
         return false;
     });
+    const std::string names = fmt::format("{}", fmt::join(missing, ", "));
     if (suite.cases.empty() && suite.axes.empty() && suite.sequences.empty())
-        return core::makeError("--rooms: '{}' has none of the suite's rooms", rooms.string());
+        return core::makeError("--rooms: '{}' has none of {}", rooms.string(), names);
+    if (!missing.empty())
+        core::logWarning("--rooms: '{}' lacks {}: their cases are left out", rooms.string(), names);
     return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <set>
 #include <string>
 
@@ -50,6 +51,51 @@ TEST(OpenedScene, NamesTheFileAndTheNodeThatAreNotThere) {
     GltfWriter room = GltfWriter::open(writeRoom(folder));
     room.moveNode("nosuch", glm::vec3(1.0f));
     EXPECT_NE(room.write(out).find("nosuch"), std::string::npos);
+}
+
+/// A binary glTF file with an empty buffer.
+std::string packGlb(std::string text) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const auto word = [](size_t value) {
+        const auto narrow = static_cast<uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&narrow), sizeof(narrow));
+    };
+    return "glTF" + word(2) + word(12 + 8 + text.size() + 8) + word(text.size()) + "JSON" + text +
+           word(0) + std::string("BIN\0", 4);
+}
+
+TEST(OpenedScene, RefusesDocumentsThatItCouldNotAddTo) {
+    const test::TempFolder folder;
+    const std::filesystem::path out = folder.path() / "out.glb";
+    const auto furnish = [&](const std::string& members) {
+        GltfWriter writer = GltfWriter::open(folder.write("in.glb", packGlb("{" + members + "}")));
+        listLensShots().front().furnish(writer);
+        return writer.write(out);
+    };
+    const std::string valid = R"("buffers": [{"byteLength": 0}], "scenes": [{"nodes": []}])";
+    EXPECT_EQ(furnish(valid), "");
+    for (const char* members :
+         {R"("extensionsUsed": {})",
+          R"("extensionsUsed": "x")",
+          R"("nodes": {})",
+          R"("nodes": [1])",
+          R"("nodes": [{"name": 5}])",
+          R"("nodes": [{"extensions": []}])",
+          R"("nodes": [{"extensions": {"KHR_physics_rigid_bodies": 1}}])",
+          R"("materials": 3)",
+          R"("accessors": {})",
+          R"("bufferViews": "x")",
+          R"("meshes": [[]])",
+          R"("cameras": [null])"})
+        EXPECT_NE(furnish(valid + ", " + members).find("in.glb"), std::string::npos) << members;
+    for (const char* members :
+         {R"("buffers": [{"byteLength": 0}])",
+          R"("buffers": [{"byteLength": 0}], "scenes": {})",
+          R"("buffers": [{"byteLength": 0}], "scenes": [{}, {}])",
+          R"("buffers": [{"byteLength": 0}], "scenes": [{"nodes": {}}])",
+          R"("buffers": [{"uri": "a.bin"}], "scenes": [{"nodes": []}])",
+          R"("buffers": {"a": {}}, "scenes": [{"nodes": []}])"})
+        EXPECT_NE(furnish(members).find("in.glb"), std::string::npos) << members;
 }
 
 TEST(LensShots, EachFurnishesARoom) {

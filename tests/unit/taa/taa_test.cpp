@@ -79,7 +79,7 @@ TEST(TaaColor, WhatADisplayShowsStaysLinearAndABrightSampleDoesNotOutweighIt) {
     }
 }
 
-constexpr Kept kNothing{shader::ivec3(0), 0.0f};
+constexpr Kept kNothing{shader::ivec3(0), 0.0f, 0u};
 
 /// Where what is static looks as it did, whatever lies around.
 Kept add(float grey, Kept last) {
@@ -91,7 +91,7 @@ Kept addInDoubt(float grey, Kept last, const ColorMoments& moments) {
 }
 
 Kept makeKept(float grey, float count) {
-    return {shader::toSteps(vec3(grey * count)), count};
+    return {shader::toSteps(vec3(grey * count)), count, 0u};
 }
 
 TEST(TaaHistory, EachFrameHasAnEqualShareUntilThereIsOnePerPlaceAndThenTheMeanStays) {
@@ -137,6 +137,28 @@ TEST(TaaHistory, InDoubtASettledPixelTakesEachFrame) {
     for (int i = 0; i < 200; ++i)
         kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
     EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 1e-3f);
+}
+
+TEST(TaaHistory, AfterADoubtASettledPixelBecomesWhatItNowLooksLikeAndThenStays) {
+    // The neighbourhood's colours spread so far that the old one is not clipped.
+    Kept kept = makeKept(0.3f, float(kPlaceCount));
+    for (int i = 0; i < 2; ++i)
+        kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
+    for (uint32_t i = 0; i < shader::kFollowedFrames; ++i)
+        kept = add(0.5f, kept);
+    EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 0.004f);
+    EXPECT_EQ(add(0.9f, kept).sum, kept.sum);
+}
+
+TEST(TaaHistory, CountsComeBackFromTheirWord) {
+    for (const float count : {0.0f, 1.0f, 4.75f, 16.0f, 16.5f})
+        for (const uint32_t left : {0u, 1u, shader::kFollowedFrames}) {
+            const Kept kept{shader::ivec3(1, 2, 3), count, left};
+            const Kept back = shader::unpackKept(kept.sum, shader::packCounts(kept));
+            EXPECT_EQ(back.sum, kept.sum);
+            EXPECT_EQ(back.count, count);
+            EXPECT_EQ(back.left, left);
+        }
 }
 
 TEST(TaaHistory, WithoutADoubtAThinLineThatThisFrameMissesStays) {
