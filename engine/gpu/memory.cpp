@@ -185,6 +185,8 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R32G32_UINT:
         return 8;
     case VK_FORMAT_R32G32B32A32_SFLOAT:
+    case VK_FORMAT_R32G32B32A32_SINT:
+    case VK_FORMAT_R32G32B32A32_UINT:
         return 16;
     default:
         break;
@@ -215,6 +217,7 @@ std::string nameFormat(VkFormat format) {
         SHUTTER_FORMAT(R32_SFLOAT)
         SHUTTER_FORMAT(R32G32_UINT)
         SHUTTER_FORMAT(R32G32_SFLOAT)
+        SHUTTER_FORMAT(R32G32B32A32_SINT)
         SHUTTER_FORMAT(R32G32B32A32_UINT)
         SHUTTER_FORMAT(R32G32B32A32_SFLOAT)
         SHUTTER_FORMAT(B10G11R11_UFLOAT_PACK32)
