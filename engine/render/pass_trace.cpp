@@ -8,8 +8,9 @@ namespace shutter::render {
 namespace {
 
 bool canBeCopied(const graph::ResourceRecord& resource) {
-    return resource.isImage && (!resource.imported || (resource.importedImage->desc().usage &
-                                                       VK_IMAGE_USAGE_TRANSFER_SRC_BIT) != 0);
+    return resource.isImage && resource.imageDesc.samples == 1 &&
+           (!resource.imported ||
+            (resource.importedImage->desc().usage & VK_IMAGE_USAGE_TRANSFER_SRC_BIT) != 0);
 }
 
 } // namespace

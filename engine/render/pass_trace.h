@@ -25,8 +25,8 @@ class PassTrace {
   public:
     /// Declares copies of every image that the graph's passes write, as each leaves it. Buffers are
     /// not among them: the order of what threads append to a list is not the same in every run. Nor
-    /// are imported images that cannot be copied. To be called once all else is declared. Error:
-    /// the graph's mistakes, as compile() tells them.
+    /// are images of several samples per pixel, and imported ones that cannot be copied. To be
+    /// called once all else is declared. Error: the graph's mistakes, as compile() tells them.
     [[nodiscard]] core::Status
     declare(graph::Graph& graph, Readback& readback, const graph::RequirementFunction& requirement);
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """A change in one pass is named, on any driver."""
 
+import json
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
@@ -50,6 +52,16 @@ class Traces(unittest.TestCase):
         for part in ("taa", "bloom", "shadow"):
             self.assertIn(part, names)
         self.assertIsNone(traces.find_difference(self.draw("hybrid", *EFFECTS), found))
+
+    def test_samples_of_a_moving_camera_are_traced_once_they_are_split(self):
+        with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
+            trace = pathlib.Path(folder) / "trace.json"
+            subprocess.run(
+                [EXECUTABLE, "render", f"{ASSETS}/courtyard.glb", "--camera", "pan", "--time", "0.5",
+                 "--method", "resolved", "--aa", "taa", *traces.SHOT, "--hash-passes", trace,
+                 "--out", f"{folder}/picture.exr"], check=True, timeout=300)
+            found = json.loads(trace.read_text(encoding="utf-8"))["images"]
+        self.assertIn("split edges", {row["pass"] for row in found})
 
     def test_tracing_does_not_change_the_picture(self):
         for method in ("hybrid", "resolved", "accumulate"):
