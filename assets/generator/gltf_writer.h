@@ -67,8 +67,8 @@ class GltfWriter {
   public:
     explicit GltfWriter(std::string title);
 
-    /// The scene of a binary glTF file with one buffer, to be added to. What is wrong with the file
-    /// is told by write().
+    /// Opens a binary glTF file with one scene and one buffer, to be added to. write() returns what
+    /// is wrong with the file.
     [[nodiscard]] static GltfWriter open(const std::filesystem::path& path);
 
     /// Repeats, with mip maps.

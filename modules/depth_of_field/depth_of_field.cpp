@@ -120,9 +120,10 @@ void DepthOfField::extract(render::ExtractContext& context) {
     mInverseFocus = 1.0 / lens.focusDistance;
     mConfusionPx = 0.0;
     // It is 0 for an orthographic camera, which has no lens.
-    const double pixelsAtOne = context.frame.constants.pixelFootprint.x;
-    if (pixelsAtOne > 0.0)
-        mConfusionPx = scene::computeLensRadius(lens, context.motion.cameraYFov(s)) / pixelsAtOne;
+    const double pixelWidthAtOne = context.frame.constants.pixelFootprint.x;
+    if (pixelWidthAtOne > 0.0)
+        mConfusionPx =
+            scene::computeLensRadius(lens, context.motion.cameraYFov(s)) / pixelWidthAtOne;
 }
 
 void DepthOfField::declare(render::PostContext& context) {

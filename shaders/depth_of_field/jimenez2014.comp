@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", depth of field:
 // scatter as you gather. Taps over the largest circle of confusion within reach count where their own
-// circle comes here, by its density; they are told apart by depth into what lies at the neighbourhood's
+// circle comes here, by its density; depth separates them into what lies at the neighbourhood's
 // nearest depth and what lies behind, and the first is laid over the second by the share of the disc
 // that it covers.
 #version 460
