@@ -3,8 +3,10 @@
 
 #include "spirv/render/gbuffer.frag.h"
 #include "spirv/render/gbuffer.vert.h"
+#include "spirv/render/gbuffer_samples.frag.h"
 #include "spirv/render/sky.frag.h"
 #include "spirv/render/sky.vert.h"
+#include "spirv/render/sky_samples.frag.h"
 
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
@@ -18,6 +20,8 @@ namespace shutter::render {
 namespace {
 
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+static_assert(extract::kMaxEntities < 1u << shader::kSampleRowBits);
 
 using Variant = GBufferPass::Variant;
 
@@ -37,12 +41,17 @@ gpu::GraphicsPipelineDesc describeGeometry(
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
-    desc.fragmentSpirv = render_gbuffer_frag;
+    desc.fragmentSpirv = targets.samples > 1
+                             ? std::span<const uint32_t>(render_gbuffer_samples_frag)
+                             : render_gbuffer_frag;
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {
         variant == Variant::Masked, blendConstantOf(variant), moves, targets.mayHaveShadows};
-    desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
+    if (targets.samples > 1)
+        desc.colorFormats = {kColorFormat, kSampleSurfaceFormat, kSampleNormalFormat};
+    else
+        desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
     desc.samples = targets.samples;
     desc.depthWrite = blendConstantOf(variant) == 0;
@@ -58,7 +67,8 @@ describeSky(const gpu_scene::GpuScene& scene, const GBufferPass::Targets& target
     gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false, targets);
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
-    desc.fragmentSpirv = render_sky_frag;
+    desc.fragmentSpirv =
+        targets.samples > 1 ? std::span<const uint32_t>(render_sky_samples_frag) : render_sky_frag;
     desc.specialization = {};
     desc.depthCompare = VK_COMPARE_OP_EQUAL; // where the cleared, infinite depth still stands
     desc.depthWrite = false;
@@ -75,7 +85,7 @@ Variant variantOf(const extract::SceneLayout::GeometryInfo& info) {
 
 bool maySample(const gpu::Device& device) {
     for (const VkFormat format :
-         {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat, kDepthFormat})
+         {kColorFormat, kSampleSurfaceFormat, kSampleNormalFormat, kDepthFormat})
         if (!device.canDrawSamples(format, shader::kSampleCount))
             return false;
     return true;
@@ -193,10 +203,16 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
         );
     };
     GBuffer targets;
+    SampleSplit::Samples sampled;
     targets.color = create("color", kColorFormat);
-    targets.normal = create("normal", kNormalFormat);
-    targets.motionDepth = create("motion depth", kMotionDepthFormat);
-    targets.entityId = create("entity id", kEntityIdFormat);
+    if (isSampled) {
+        sampled.surface = create("sample surfaces", kSampleSurfaceFormat);
+        sampled.normal = create("sample normals", kSampleNormalFormat);
+    } else {
+        targets.normal = create("normal", kNormalFormat);
+        targets.motionDepth = create("motion depth", kMotionDepthFormat);
+        targets.entityId = create("entity id", kEntityIdFormat);
+    }
     const auto depth = create("depth buffer", kDepthFormat);
 
     struct Data {};
@@ -209,11 +225,16 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
                 if (buffer.isValid())
                     builder.read(buffer, graph::Access::ShaderRead);
             const auto zero = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f);
+            const auto none = graph::ClearColor::uints(shader::kNoEntity);
             targets.color = builder.colorTarget(targets.color, zero);
-            targets.normal = builder.colorTarget(targets.normal, zero);
-            targets.motionDepth = builder.colorTarget(targets.motionDepth, zero);
-            targets.entityId =
-                builder.colorTarget(targets.entityId, graph::ClearColor::uints(shader::kNoEntity));
+            if (isSampled) {
+                sampled.surface = builder.colorTarget(sampled.surface, none);
+                sampled.normal = builder.colorTarget(sampled.normal, none);
+            } else {
+                targets.normal = builder.colorTarget(targets.normal, zero);
+                targets.motionDepth = builder.colorTarget(targets.motionDepth, zero);
+                targets.entityId = builder.colorTarget(targets.entityId, none);
+            }
             (void)builder.depthTarget(depth, 0.0f);
         },
         [&drawers, &frame, &scene, constants = source.frameConstants](
@@ -234,8 +255,10 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
             });
         }
     );
-    return isSampled ? mSplit.declare(graph, targets, source.keepsEdges, !frame.blended.empty())
-                     : targets;
+    if (!isSampled)
+        return targets;
+    sampled.color = targets.color;
+    return mSplit.declare(graph, sampled, source.keepsEdges, !frame.blended.empty());
 }
 
 } // namespace shutter::render

@@ -10,6 +10,8 @@ inline constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kMotionDepthFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kEntityIdFormat = VK_FORMAT_R32_UINT;
+inline constexpr VkFormat kSampleSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
+inline constexpr VkFormat kSampleNormalFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kEdgeSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
 
 /// What the raster pass leaves. Formats are chosen for one nearest fetch a tap (lavapipe) and for

@@ -17,20 +17,20 @@ namespace {
 
 using graph::Access;
 
-/// Both shaders read the four images of samples and write those of a G-buffer.
+/// Both shaders read the three images of samples and write those of a G-buffer.
 gpu::ComputePipelineDesc describePipeline(const char* name, std::span<const uint32_t> spirv) {
     gpu::ComputePipelineDesc desc;
     desc.name = name;
     desc.spirv = spirv;
-    desc.interface.bindings.assign(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    desc.interface.bindings.resize(8, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    desc.interface.bindings.assign(3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    desc.interface.bindings.resize(7, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     desc.interface.pushConstantBytes = sizeof(shader::SplitParams);
     return desc;
 }
 
 gpu::ComputePipelineDesc describeSplit() {
     gpu::ComputePipelineDesc desc = describePipeline("split samples", render_split_samples_comp);
-    desc.interface.bindings.resize(10, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    desc.interface.bindings.resize(9, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     return desc;
 }
 
@@ -73,23 +73,21 @@ EdgeList declareList(graph::Graph& graph, const math::uvec2& sizePx) {
 }
 
 struct Data {
-    GBuffer samples;
+    SampleSplit::Samples samples;
     GBuffer split;
     EdgeList edges;
 };
 
-void readSamples(graph::PassBuilder& builder, const GBuffer& samples) {
-    for (const graph::ImageHandle image :
-         {samples.color, samples.normal, samples.motionDepth, samples.entityId})
+void readSamples(graph::PassBuilder& builder, const SampleSplit::Samples& samples) {
+    for (const graph::ImageHandle image : {samples.color, samples.surface, samples.normal})
         builder.read(image, Access::SampledCompute);
 }
 
 gpu::BindingList
 bindBoth(const gpu::Device& device, const graph::PassResources& resources, const Data& data) {
     gpu::BindingList bindings;
-    const GBuffer& from = data.samples;
-    for (const graph::ImageHandle image :
-         {from.color, from.normal, from.motionDepth, from.entityId})
+    const SampleSplit::Samples& from = data.samples;
+    for (const graph::ImageHandle image : {from.color, from.surface, from.normal})
         bindings.sampled(resources.view(image), device.nearestSampler());
     const GBuffer& to = data.split;
     for (const graph::ImageHandle image : {to.color, to.normal, to.motionDepth, to.entityId})
@@ -103,7 +101,7 @@ SampleSplit::SampleSplit(gpu::Device& device)
     : mDevice(device), mSplit(device, describeSplit()), mEdges(device, describeEdges()) {}
 
 GBuffer SampleSplit::declare(
-    graph::Graph& graph, const GBuffer& samples, bool keepsEdges, bool hasBlended
+    graph::Graph& graph, const Samples& samples, bool keepsEdges, bool hasBlended
 ) const {
     const graph::TransientImageDesc size = graph.describeImage(samples.color);
     const shader::SplitParams params{

@@ -12,12 +12,20 @@ class SampleSplit {
   public:
     explicit SampleSplit(gpu::Device& device);
 
-    /// \param samples a raster of shader::kSampleCount samples per pixel
+    /// A raster of shader::kSampleCount samples per pixel.
+    struct Samples {
+        graph::ImageHandle color; ///< of kColorFormat
+        /// Of kSampleSurfaceFormat: bits of motion and depth as in GBuffer::motionDepth, and the
+        /// word of the entity (rowOfSample()).
+        graph::ImageHandle surface;
+        graph::ImageHandle normal; ///< of kSampleNormalFormat: packNormal()
+    };
+
     /// \param keepsEdges GBuffer::edgeSurface is read: a pixel there has its own surface's colour
-    /// \param hasBlended blended surfaces are in its colours
+    /// \param hasBlended blended surfaces are in the colours
     /// \return one sample per pixel
     [[nodiscard]] GBuffer
-    declare(graph::Graph& graph, const GBuffer& samples, bool keepsEdges, bool hasBlended) const;
+    declare(graph::Graph& graph, const Samples& samples, bool keepsEdges, bool hasBlended) const;
 
   private:
     gpu::Device& mDevice;

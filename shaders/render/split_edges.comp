@@ -4,20 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "render/split_samples_shared.h"
+#include "render/split_samples.glsl"
 
 layout(local_size_x = kSplitGroupSize) in;
-layout(push_constant, scalar) uniform Push { SplitParams params; };
-layout(binding = 0) uniform sampler2DMS uColorSamples;
-layout(binding = 1) uniform sampler2DMS uNormalSamples;
-layout(binding = 2) uniform sampler2DMS uMotionDepthSamples;
-layout(binding = 3) uniform usampler2DMS uEntityIdSamples;
-layout(binding = 4, rgba16f) uniform writeonly image2D uColor;
-layout(binding = 5, rgba16f) uniform writeonly image2D uNormal;
-layout(binding = 6, rgba32f) uniform writeonly image2D uMotionDepth;
-layout(binding = 7, r32ui) uniform writeonly uimage2D uEntityId;
-layout(binding = 8, rgba32ui) uniform writeonly uimage2D uEdgeSurface;
-layout(binding = 9, scalar) readonly buffer Edges {
+layout(binding = 7, rgba32ui) uniform writeonly uimage2D uEdgeSurface;
+layout(binding = 8, scalar) readonly buffer Edges {
     uint count;
     uint pixels[]; // x | y << 16
 } uEdges;
@@ -93,9 +84,10 @@ void main() {
     vec4 colors[kSampleCount];
     uint ids[kSampleCount];
     for (uint i = 0u; i < kSampleCount; ++i) {
-        motionDepths[i] = texelFetch(uMotionDepthSamples, pixel, int(i)).xyz;
+        uvec4 surface = texelFetch(uSurfaceSamples, pixel, int(i));
+        ids[i] = rowOfSample(surface.w);
+        motionDepths[i] = uintBitsToFloat(surface.xyz);
         colors[i] = texelFetch(uColorSamples, pixel, int(i));
-        ids[i] = texelFetch(uEntityIdSamples, pixel, int(i)).x;
     }
     uint own = findMost(motionDepths, kAll);
     uint others = params.keepsEdges != 0u ? kAll & ~own : 0u;
@@ -112,9 +104,6 @@ void main() {
         );
     }
     Seen seen = findEntity(motionDepths, ids, own);
-    vec2 motion = texelFetch(uMotionDepthSamples, pixel, seen.index).xy;
     imageStore(uColor, pixel, meanColor(colors, kAll & ~others));
-    imageStore(uNormal, pixel, texelFetch(uNormalSamples, pixel, seen.index));
-    imageStore(uMotionDepth, pixel, vec4(motion, seen.depth, float(others)));
-    imageStore(uEntityId, pixel, uvec4(seen.id, 0u, 0u, 0u));
+    storeSurface(pixel, seen.index, others);
 }

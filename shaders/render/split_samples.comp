@@ -3,20 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "render/split_samples_shared.h"
+#include "render/split_samples.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant, scalar) uniform Push { SplitParams params; };
-layout(binding = 0) uniform sampler2DMS uColorSamples;
-layout(binding = 1) uniform sampler2DMS uNormalSamples;
-layout(binding = 2) uniform sampler2DMS uMotionDepthSamples;
-layout(binding = 3) uniform usampler2DMS uEntityIdSamples;
-layout(binding = 4, rgba16f) uniform writeonly image2D uColor;
-layout(binding = 5, rgba16f) uniform writeonly image2D uNormal;
-layout(binding = 6, rgba32f) uniform writeonly image2D uMotionDepth;
-layout(binding = 7, r32ui) uniform writeonly uimage2D uEntityId;
-layout(binding = 8, scalar) buffer Arguments { uvec3 groups; } uArguments; // of split_edges.comp
-layout(binding = 9, scalar) buffer Edges {
+layout(binding = 7, scalar) buffer Arguments { uvec3 groups; } uArguments; // of split_edges.comp
+layout(binding = 8, scalar) buffer Edges {
     uint count;
     uint pixels[]; // x | y << 16
 } uEdges;
@@ -24,11 +15,11 @@ layout(binding = 9, scalar) buffer Edges {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    vec3 motionDepth = texelFetch(uMotionDepthSamples, pixel, 0).xyz;
     // One triangle covers all samples, and blended surfaces, which have colours alone, cover none.
-    bool isWhole = params.hasBlended == 0u;
+    uint word = texelFetch(uSurfaceSamples, pixel, 0).w;
+    bool isWhole = params.hasBlended == 0u && (word < kSampleOfPart || word == kNoEntity);
     for (int i = 1; i < int(kSampleCount); ++i)
-        isWhole = isWhole && texelFetch(uMotionDepthSamples, pixel, i).xyz == motionDepth;
+        isWhole = isWhole && texelFetch(uSurfaceSamples, pixel, i).w == word;
     if (!isWhole) {
         uint index = atomicAdd(uEdges.count, 1u);
         uEdges.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16;
@@ -40,7 +31,5 @@ void main() {
         return;
     }
     imageStore(uColor, pixel, texelFetch(uColorSamples, pixel, 0));
-    imageStore(uNormal, pixel, texelFetch(uNormalSamples, pixel, 0));
-    imageStore(uMotionDepth, pixel, vec4(motionDepth, 0.0f));
-    imageStore(uEntityId, pixel, texelFetch(uEntityIdSamples, pixel, 0));
+    storeSurface(pixel, 0, 0u);
 }

@@ -5,6 +5,7 @@
 #define SHUTTER_SPLIT_SAMPLES_SHARED_H
 
 #include "common/shim.h"
+#include "render/scene_shared.h"
 
 SHUTTER_SHADER_BEGIN
 
@@ -39,6 +40,38 @@ SHUTTER_INLINE uint nearestSample(vec2 at) {
         }
     }
     return nearest;
+}
+
+/// The word of an entity: its row in the low bits, of which the table has fewer; above them bits
+/// that differ, as a rule, between triangles of one entity, then kSampleOfPart. Without an entity
+/// it is kNoEntity.
+SHUTTER_CONST uint kSampleRowBits = 24u;
+SHUTTER_CONST uint kSampleOfPart = 0x80000000u; // the triangle covers only a part of the pixel
+
+SHUTTER_INLINE uint rowOfSample(uint word) {
+    return word == kNoEntity ? kNoEntity : word & ((1u << kSampleRowBits) - 1u);
+}
+
+/// A unit vector in two numbers of 16 bits, to 1e-4 rad (Meyer et al. 2010, "On Floating-Point
+/// Normal Vectors", octahedral).
+SHUTTER_INLINE uint packNormal(vec3 normal) {
+    float sum = abs(normal.x) + abs(normal.y) + abs(normal.z);
+    vec2 at = vec2(normal.x, normal.y) / sum;
+    if (normal.z < 0.0f)
+        at = vec2(
+            (1.0f - abs(at.y)) * (at.x < 0.0f ? -1.0f : 1.0f),
+            (1.0f - abs(at.x)) * (at.y < 0.0f ? -1.0f : 1.0f)
+        );
+    return packSnorm2x16(at);
+}
+
+SHUTTER_INLINE vec3 unpackNormal(uint bits) {
+    vec2 at = unpackSnorm2x16(bits);
+    vec3 normal = vec3(at, 1.0f - abs(at.x) - abs(at.y));
+    float under = max(-normal.z, 0.0f);
+    normal.x += normal.x < 0.0f ? under : -under;
+    normal.y += normal.y < 0.0f ? under : -under;
+    return normalize(normal);
 }
 
 struct SplitParams {

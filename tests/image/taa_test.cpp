@@ -251,6 +251,21 @@ TEST_F(TaaEdge, ASilhouetteIsSmoothWithEachMethod) {
     }
 }
 
+TEST_F(TaaEdge, ASilhouetteBeforeTheSameEntityIsSmooth) {
+    slideCamera(1.5);
+    const math::dmat4 behind = glm::translate(math::dmat4(1.0), {0, 0, -4});
+    mScene.add(
+        mScene.addMesh(
+            {test::transformed(
+                 test::makeQuad(40.0, 40.0, mScene.addColor(math::vec3(0.05f))), behind
+             ),
+             test::makeQuad(1.4, 1.4, mScene.addColor(math::vec3(0.9f)))}
+        ),
+        {.position = {mSpeed, 0, -kDistance}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
+    );
+    EXPECT_LT(measureError(AntiAliasing::Taa), 0.65 * measureError(AntiAliasing::None));
+}
+
 TEST_F(TaaEdge, AdaptiveWithoutRaysHasTheBitsOfResolved) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "adaptive needs ray queries";

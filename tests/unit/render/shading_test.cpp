@@ -363,6 +363,27 @@ TEST(TextureLod, TheBiasIsAdded) {
     EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, 0.5f), 3.5f, 1e-5f);
 }
 
+TEST(SamplesOfAPixel, ANormalIsPackedToATenthOfAMilliradian) {
+    for (int i = 0; i < 2000; ++i) {
+        // Over the sphere by the golden angle; the first few are the axes.
+        const float z = 1.0f - (2.0f * float(i) + 1.0f) / 2000.0f;
+        const float turn = 2.399963f * float(i);
+        const float radius = std::sqrt(1.0f - z * z);
+        vec3 normal(radius * std::cos(turn), radius * std::sin(turn), z);
+        if (i < 6) {
+            normal = vec3(0.0f);
+            normal[i / 2] = i % 2 == 0 ? 1.0f : -1.0f;
+        }
+        EXPECT_LT(distance(unpackNormal(packNormal(normal)), normal), 1e-4f) << i;
+    }
+}
+
+TEST(SamplesOfAPixel, AnEntitysRowIsReadBackFromItsWord) {
+    EXPECT_EQ(rowOfSample(kNoEntity), kNoEntity);
+    EXPECT_EQ(rowOfSample(0u), 0u);
+    EXPECT_EQ(rowOfSample(kSampleOfPart | 0x7Fu << kSampleRowBits | 0xFFFFFEu), 0xFFFFFEu);
+}
+
 TEST(SamplesOfAPixel, ThePlaceOfEachIsNearestToItself) {
     vec2 sum(0.0f);
     for (uint32_t i = 0; i < kSampleCount; ++i) {
