@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/world_watch.h"
 
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/vertex_waves.h"
 
@@ -65,6 +66,10 @@ core::Status MotionCheck::check(const ecs::Registry& registry) {
     SHUTTER_TRY(checkChanged<scene::CameraLens>(registry, mOpenings, [](const auto& lens) {
         return scene::validate(lens, "lens.");
     }));
+    SHUTTER_TRY(checkChanged<scene::LensOverride>(registry, mOverrides, [](const auto& lens) {
+        return scene::validate(lens, "lens override: ");
+    }));
+    SHUTTER_TRY(checkChanged<scene::AutoFocus>(registry, mAutoFocuses, scene::validateAutoFocus));
     return checkChanged<scene::VertexWaves>(registry, mWaves, scene::validateWaves);
 }
 

@@ -54,7 +54,7 @@ class WorldWatch {
 class MotionCheck {
   public:
     /// Error: names the entity whose path, lens or waves are not valid (scene::validatePath,
-    /// validateLens, validateFocus, validate, validateWaves).
+    /// validateLens, validateFocus, validate, validateAutoFocus, validateWaves).
     [[nodiscard]] core::Status check(const ecs::Registry& registry);
 
   private:
@@ -62,6 +62,8 @@ class MotionCheck {
     ecs::ChangeCursor mLenses;
     ecs::ChangeCursor mFocuses;
     ecs::ChangeCursor mOpenings;
+    ecs::ChangeCursor mOverrides;
+    ecs::ChangeCursor mAutoFocuses;
     ecs::ChangeCursor mWaves;
 };
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/json/json_rows.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/shutter.h"
 
 #include <nlohmann/json.hpp>
@@ -360,11 +361,14 @@ ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythroug
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
     scene::Camera camera;
     std::optional<scene::CameraLens> opening;
+    std::optional<scene::AutoFocus> autoFocus;
     if (!world.cameras.empty()) {
         const ecs::Entity first = world.cameras.front();
         camera = world.registry.get<scene::Camera>(first);
         if (const auto* found = world.registry.find<scene::CameraLens>(first))
             opening = *found;
+        if (const auto* found = world.registry.find<scene::AutoFocus>(first))
+            autoFocus = *found;
     }
     camera.name = flythrough.name;
     const ecs::Entity entity = world.registry.create();
@@ -379,6 +383,8 @@ ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythroug
     }
     if (opening)
         world.registry.add(entity, *opening);
+    if (autoFocus)
+        world.registry.add(entity, *autoFocus);
     if (auto focus = makeFocus(flythrough))
         world.registry.add(entity, std::move(*focus));
     world.registry.add(entity, camera);

@@ -82,7 +82,8 @@ writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough)
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter);
 
 /// Adds a camera that follows the keys. Its lens is that of the world's first camera, or Camera's
-/// default in a world without cameras, except for what the keys give of it.
+/// default in a world without cameras, except for what the keys give of it; it focuses as that one
+/// does.
 [[nodiscard]] ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythrough);
 
 } // namespace shutter::flythrough

@@ -2,6 +2,7 @@
 #include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/vertex_waves.h"
 
@@ -15,6 +16,9 @@ namespace {
 
 /// Beyond this distance a single-precision projection matrix has no precision left.
 constexpr double kMaxDistance = 1e30;
+
+constexpr const char* kFocusNode = "focusNode";
+constexpr const char* kFocusHalfLife = "focusHalfLife";
 
 void expectRange(double value, double low, double high, const std::string& path) {
     if (!(value > low && value < high)) {
@@ -113,6 +117,66 @@ readWaves(GltfContext& context, const tinygltf::Value& object, const std::string
 
 } // namespace
 
+namespace {
+
+ecs::Entity findFocusNode(
+    const GltfContext& context,
+    const std::vector<ecs::Entity>& entities,
+    const std::string& name,
+    const std::string& path
+) {
+    ecs::Entity found = ecs::kNullEntity;
+    for (size_t n = 0; n < entities.size(); ++n) {
+        if (entities[n] == ecs::kNullEntity || context.model.nodes[n].name != name)
+            continue;
+        if (found != ecs::kNullEntity)
+            failGltf("{} '{}' is the name of several nodes", path, name);
+        found = entities[n];
+    }
+    if (found == ecs::kNullEntity)
+        failGltf("{} '{}' is the name of no node of the scene", path, name);
+    return found;
+}
+
+std::optional<scene::AutoFocus>
+readAutoFocus(GltfContext& context, size_t index, const std::vector<ecs::Entity>& entities) {
+    const std::string path = fmt::format("cameras[{}]", index);
+    const tinygltf::Value* object = findExtra(context.model.cameras[index].extras, "lens", path);
+    if (!object)
+        return std::nullopt;
+    const std::string at = path + ".extras.lens";
+    scene::AutoFocus focus;
+    focus.halfLife = findNumber(*object, kFocusHalfLife, at).value_or(focus.halfLife);
+    if (!scene::validateAutoFocus(focus))
+        failGltf("{}.{} is {}, it must lie in [0, 1000]", at, kFocusHalfLife, focus.halfLife);
+    if (!object->Has(kFocusNode)) {
+        if (object->Has(kFocusHalfLife))
+            failGltf("{}.{} needs a {}", at, kFocusHalfLife, kFocusNode);
+        return std::nullopt;
+    }
+    const std::string member = fmt::format("{}.{}", at, kFocusNode);
+    if (!object->Get(kFocusNode).IsString())
+        failGltf("{} is not a string", member);
+    focus.target =
+        findFocusNode(context, entities, object->Get(kFocusNode).Get<std::string>(), member);
+    return focus;
+}
+
+} // namespace
+
+void addAutoFocus(
+    GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
+) {
+    for (size_t n = 0; n < entities.size(); ++n) {
+        const int camera = context.model.nodes[n].camera;
+        if (camera < 0 || entities[n] == ecs::kNullEntity ||
+            !world.registry.has<scene::Camera>(entities[n]))
+            continue;
+        if (const auto focus = readAutoFocus(context, size_t(camera), entities))
+            world.registry.add(entities[n], *focus);
+    }
+}
+
 scene::Camera readCamera(const GltfContext& context, size_t index) {
     const tinygltf::Camera& source = context.model.cameras[index];
     const std::string path = fmt::format("cameras[{}]", index);
@@ -143,7 +207,9 @@ std::optional<scene::CameraLens> readLens(GltfContext& context, size_t index) {
          "bladeRotation",
          "roundness",
          "squeeze",
-         "blurScale"},
+         "blurScale",
+         kFocusNode,
+         kFocusHalfLife},
         at
     );
     scene::CameraLens lens;

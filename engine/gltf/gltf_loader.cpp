@@ -51,6 +51,7 @@ LoadedScene buildScene(
     bindMeshes(context, loaded.world.assets);
     const std::vector<ecs::Entity> entities = loadNodes(context, loaded.world);
     addSkins(context, loaded.world, entities);
+    addAutoFocus(context, loaded.world, entities);
     loadAnimations(context, loaded.world, entities);
     expandInstances(context, loaded.world, entities);
     loaded.warnings = warnings.take();

@@ -88,9 +88,9 @@ void readMorphTargets(
 /// cameras[index] as a component.
 [[nodiscard]] scene::Camera readCamera(const GltfContext& context, size_t index);
 
-/// `extras.lens` of cameras[index], with the fields of scene::CameraLens, all optional. Nothing
-/// where the camera has none. Throws GltfError, naming the member, for values that
-/// scene::validate() refuses.
+/// `extras.lens` of cameras[index], with the fields of scene::CameraLens, all optional, and those
+/// of addAutoFocus(). Nothing where the camera has none. Throws GltfError, naming the member, for
+/// values that scene::validate() refuses.
 [[nodiscard]] std::optional<scene::CameraLens> readLens(GltfContext& context, size_t index);
 
 /// lights[index] of KHR_lights_punctual as a component.
@@ -124,6 +124,13 @@ readParticles(GltfContext& context, size_t index);
 
 /// Adds scene::Skinned to entities that draw a mesh with a skin.
 void addSkins(GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities);
+
+/// Adds scene::AutoFocus to cameras whose `extras.lens` has a `focusNode`, the name of exactly one
+/// node that has an entity, and perhaps a `focusHalfLife`, seconds. Throws GltfError, naming the
+/// member, for other names and values.
+void addAutoFocus(
+    GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
+);
 
 /// Fills Assets::clips with the translation, rotation, scale and weights channels, adds Animated to
 /// the entities they drive, adds to their MorphWeights, and makes every clip active. Requires the

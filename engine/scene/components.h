@@ -188,6 +188,15 @@ struct CameraLens {
     double blurScale = 1.0;      ///< of the lens's width, [0, 2]
 };
 
+/// What a viewer changes of a camera's lens, whatever else focuses it (lens.h). Sits on the
+/// camera's entity; the default changes nothing.
+struct LensOverride {
+    double fStop = 0.0;         ///< in place of the camera's, [0.01, 1e9]; 0: the camera's own
+    double focusDistance = 0.0; ///< in place of the camera's, metres, [1e-4, 1e9]; 0: its own
+    double blurScale = 1.0;     ///< of the lens's width, on top of the camera's, [0, 2]; 0: a
+                                ///< pinhole
+};
+
 /// Artist's say over one entity and its descendants; the nearest one upwards counts.
 struct MotionBlur {
     double scale = 1.0;   ///< of all its blur on the screen, the camera's part too, [0, 2]

@@ -2,6 +2,7 @@
 #include "engine/scene/lens.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/auto_focus.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +18,6 @@ namespace {
 /// Below it a lens is metres wide at usual fields of view.
 constexpr double kLeastFStop = 0.01;
 constexpr double kMostFStop = 1.0e9;
-constexpr double kNearestFocus = 1.0e-4; // metres
-constexpr double kFarthestFocus = 1.0e9; // metres
 constexpr uint32_t kLeastBlades = 3;
 
 double focusAt(const FocusMotion& motion, const KeyPlace& place) {
@@ -41,6 +40,15 @@ double fStopAt(const FocusMotion& motion, const KeyPlace& place) {
             return std::log(*motion.keys[key].fStop / from);
         });
     return change == 0.0 ? from : std::clamp(from * std::exp(change), kLeastFStop, kMostFStop);
+}
+
+void applyKeys(const FocusMotion& motion, double seconds, CameraLens& lens) {
+    SHUTTER_CHECK(!motion.keys.empty(), "a focus without keys");
+    const KeyPlace place = findKeyPlace(motion.keys, motion.ease, seconds);
+    if (motion.keys.front().focusDistance)
+        lens.focusDistance = focusAt(motion, place);
+    if (motion.keys.front().fStop)
+        lens.fStop = fStopAt(motion, place);
 }
 
 } // namespace
@@ -80,15 +88,16 @@ CameraLens lensAt(const World& world, ecs::Entity camera, double seconds) {
         return {};
     const auto* own = world.registry.find<CameraLens>(camera);
     CameraLens lens = own ? *own : CameraLens{};
-    const auto* motion = world.registry.find<FocusMotion>(camera);
-    if (!motion)
-        return lens;
-    SHUTTER_CHECK(!motion->keys.empty(), "a focus without keys");
-    const KeyPlace place = findKeyPlace(motion->keys, motion->ease, seconds);
-    if (motion->keys.front().focusDistance)
-        lens.focusDistance = focusAt(*motion, place);
-    if (motion->keys.front().fStop)
-        lens.fStop = fStopAt(*motion, place);
+    if (const auto distance = autoFocusAt(world, camera, seconds))
+        lens.focusDistance = *distance;
+    if (const auto* motion = world.registry.find<FocusMotion>(camera))
+        applyKeys(*motion, seconds, lens);
+    if (const auto* viewer = world.registry.find<LensOverride>(camera)) {
+        lens.fStop = viewer->fStop != 0.0 ? viewer->fStop : lens.fStop;
+        lens.focusDistance =
+            viewer->focusDistance != 0.0 ? viewer->focusDistance : lens.focusDistance;
+        lens.blurScale *= viewer->blurScale;
+    }
     return lens;
 }
 
@@ -99,7 +108,10 @@ bool hasLens(const World& world, ecs::Entity camera) {
     const CameraLens lens = own ? *own : CameraLens{};
     const auto* motion = world.registry.find<FocusMotion>(camera);
     const bool isOpened = motion && !motion->keys.empty() && motion->keys.front().fStop;
-    return (lens.fStop != 0.0 || isOpened) && lens.blurScale != 0.0;
+    const auto* viewer = world.registry.find<LensOverride>(camera);
+    const bool opens = viewer && viewer->fStop != 0.0;
+    const bool closes = viewer && viewer->blurScale == 0.0;
+    return (lens.fStop != 0.0 || isOpened || opens) && lens.blurScale != 0.0 && !closes;
 }
 
 double computeLensRadius(const CameraLens& lens, double yFov) {
@@ -183,6 +195,57 @@ core::SettingRows<CameraLens> listLensRows() {
          "Blur"},
     }};
     return kRows;
+}
+
+core::SettingRows<LensOverride> listOverrideRows() {
+    using L = LensOverride;
+    static const std::array<core::SettingRow<L>, 3> kRows = {{
+        {"fStop",
+         &L::fStop,
+         "",
+         {.lowest = 0,
+          .highest = kMostFStop,
+          .isLogarithmic = true,
+          .sliderLowest = 0.5,
+          .sliderHighest = 64},
+         "F-number in place of the camera's, at least 0.01: lower is more blur. 0 is the camera's "
+         "own; without one it is a pinhole, all sharp.",
+         "F-number"},
+        {"focusDistance",
+         &L::focusDistance,
+         "m",
+         {.lowest = 0,
+          .highest = kFarthestFocus,
+          .isLogarithmic = true,
+          .sliderLowest = 0.1,
+          .sliderHighest = 100},
+         "Distance of what is in focus, along the camera's axis, in place of the camera's, at "
+         "least 0.0001. 0 is the camera's own.",
+         "Focus"},
+        {"blurScale",
+         &L::blurScale,
+         "x",
+         {.lowest = 0, .highest = 2},
+         "Scales the blur of what is out of focus, for players who dislike it. 0: none.",
+         "Depth of field"},
+    }};
+    return kRows;
+}
+
+core::Status validate(const LensOverride& lens, std::string_view prefix) {
+    SHUTTER_TRY(core::validateRows(listOverrideRows(), lens, prefix));
+    if (lens.fStop != 0.0 && lens.fStop < kLeastFStop)
+        return core::makeError(
+            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kLeastFStop
+        );
+    if (lens.focusDistance != 0.0 && lens.focusDistance < kNearestFocus)
+        return core::makeError(
+            "{}focusDistance is {}, it must be 0 or at least {}",
+            prefix,
+            lens.focusDistance,
+            kNearestFocus
+        );
+    return {};
 }
 
 core::Status validate(const CameraLens& lens, std::string_view prefix) {

@@ -43,8 +43,14 @@ struct FocusMotion {
 /// One sentence that names the key and what is wrong with it.
 [[nodiscard]] core::Status validateFocus(const FocusMotion& focus);
 
-/// The camera's lens at `seconds` (finite), whatever focuses it. A pinhole for a camera without one
-/// and for an orthographic one, which has no focal length.
+/// Farthest focus distance, metres: infinity, for the eye.
+inline constexpr double kFarthestFocus = 1.0e9;
+/// Nearest focus distance, metres.
+inline constexpr double kNearestFocus = 1.0e-4;
+
+/// The camera's lens at `seconds` (finite), whatever focuses it: LensOverride, else FocusMotion,
+/// else AutoFocus (auto_focus.h), else CameraLens. A pinhole for a camera without one and for an
+/// orthographic one, which has no focal length.
 [[nodiscard]] CameraLens lensAt(const World& world, ecs::Entity camera, double seconds);
 
 /// False: the camera is a pinhole at all times.
@@ -67,8 +73,12 @@ computeConfusionDiameter(const CameraLens& lens, double radius, double depth, do
 /// One row per field of CameraLens (engine/core/setting_row.h).
 [[nodiscard]] core::SettingRows<CameraLens> listLensRows();
 
+/// One row per field of LensOverride.
+[[nodiscard]] core::SettingRows<LensOverride> listOverrideRows();
+
 /// Error: one sentence that names the field which is out of its range.
 /// \param prefix before the field's name, e.g. "lens."
 [[nodiscard]] core::Status validate(const CameraLens& lens, std::string_view prefix = "");
+[[nodiscard]] core::Status validate(const LensOverride& lens, std::string_view prefix = "");
 
 } // namespace shutter::scene

@@ -8,6 +8,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
 #include "game/options/render_arguments.h"
 #include "game/shot/surroundings.h"
@@ -186,6 +187,7 @@ CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, 
     game::PictureRequest picture = game::makePicture(
         mShot, mShotOptions, makeMethodOptions(drawn.point), mShotOptions.frameTimes.front()
     );
+    scene::replayAutoFocus(mShot.world, picture.frame.view.exposure.close);
     picture.frame.wantColor = wantsLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&*mTonemap};

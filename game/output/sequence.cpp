@@ -9,6 +9,7 @@
 #include "engine/gpu/device_select.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
 #include "game/output/extra_files.h"
 #include "game/output/render_options.h"
@@ -136,7 +137,7 @@ class Sequence {
     }
 
     /// Error: the device cannot draw this. Nothing was written yet.
-    core::Status prepare(gpu::Device& device, const Shot& shot) {
+    core::Status prepare(gpu::Device& device, Shot& shot) {
         const ShotOptions& size = mOptions.shot;
         core::Status able = PictureDrawer::check(device, mOptions.method, size.width, size.height);
         if (!able)
@@ -231,6 +232,7 @@ class Sequence {
   private:
     core::Result<render::FrameResult> drawOnce(double seconds, core::Progress& progress) {
         PictureRequest request = makePicture(*mShot, mOptions.shot, mOptions.method, seconds);
+        scene::replayAutoFocus(mShot->world, request.frame.view.exposure.close);
         request.frame.intermediates = mOptions.output.aovs;
         request.frame.wantColor = !mOptions.output.displayOut || mOptions.output.isDeep();
         request.frame.wantDisplay = !request.frame.wantColor;
@@ -318,7 +320,7 @@ class Sequence {
     const RenderOptions& mOptions;
     std::vector<size_t> mFrames; ///< those to be drawn: indices among the shot's frame times
     gpu::Device* mDevice = nullptr;
-    const Shot* mShot = nullptr;
+    Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
     std::optional<PictureEffects> mEffects;
     std::optional<PictureDrawer> mDrawer;

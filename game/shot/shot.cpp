@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/flythrough/time_ramp.h"
 #include "engine/gltf/gltf_loader.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/world.h"
@@ -150,6 +151,8 @@ core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions&
     lens.fStop = options.fStop.value_or(lens.fStop);
     lens.focusDistance = options.focusDistance.value_or(lens.focusDistance);
     world.registry.add(camera, lens);
+    if (options.focusDistance)
+        world.registry.remove<scene::AutoFocus>(camera);
     if (auto* motion = world.registry.find<scene::FocusMotion>(camera))
         for (scene::FocusKey& key : motion->keys) {
             if (options.fStop)

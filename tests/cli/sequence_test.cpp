@@ -99,6 +99,97 @@ TEST_F(Sequence, AMethodWithoutALensSaysThatItDrawsAPinhole) {
     expectRefusal(with("none_%d.png", {"--focus", "2"}), 1, {"--focus needs --fstop"});
 }
 
+/// Of kDriftingScene, whose triangle now drifts away from a camera that may focus on it, in
+/// front of another one that rests.
+std::string makeFocusScene(const std::string& camera) {
+    std::string scene = kDriftingScene;
+    const auto replace = [&](std::string_view from, const std::string& to) {
+        const size_t at = scene.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        scene.replace(at, from.size(), to);
+    };
+    replace(R"("scenes": [{"nodes": [0]}])", R"("scenes": [{"nodes": [0, 3, 4]}])");
+    replace(
+        R"("nodes": [{"mesh": 0}])",
+        R"("nodes": [{"rotation": [0, 0.7071068, 0, 0.7071068], "children": [1]},
+            {"name": "drifter", "children": [2]},
+            {"mesh": 0, "rotation": [0, -0.7071068, 0, 0.7071068]},
+            {"mesh": 0, "translation": [0.7, 0.4, -6], "scale": [2, 2, 2]},
+            {"camera": 0, "translation": [0.3, 0.2, 3]}], "cameras": [)" +
+            camera + "]"
+    );
+    replace(R"("target": {"node": 0)", R"("target": {"node": 1)");
+    return scene;
+}
+
+TEST_F(Sequence, AFocusedNodeGivesEachFrameTheSameBitsWhicheverAreDrawnBefore) {
+    const auto write = [&](const std::string& more) {
+        writeFile(
+            "focus.gltf",
+            makeFocusScene(
+                R"({"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1},
+                    "extras": {"lens": {"fStop": 0.05, )" +
+                more + "}}}"
+            )
+        );
+    };
+    const auto draw = [&](const std::string& frames, const std::string& out, const Arguments& more
+                      ) {
+        Arguments arguments = {
+            "render",
+            "focus.gltf",
+            "--size",
+            "64x36",
+            "--method",
+            "accumulate",
+            "--samples",
+            "16",
+            "--exposure",
+            "0.02",
+            "--fps",
+            "8",
+            "--frames",
+            frames,
+            "--out",
+            out};
+        arguments.insert(arguments.end(), kOnSoftware.begin(), kOnSoftware.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    write(R"("focusNode": "drifter", "focusHalfLife": 0.1)");
+    expectSuccess(draw("0:6", "whole_%d.png", {}));
+    expectSuccess(draw("0:6", "part_%d.png", {"--part", "2/2"}));
+    expectSuccess(draw("4:4", "alone_%d.png", {}));
+    for (const int frame : {1, 3, 5})
+        EXPECT_TRUE(
+            readFile(fmt::format("part_{}.png", frame)) ==
+            readFile(fmt::format("whole_{}.png", frame))
+        ) << frame;
+    EXPECT_TRUE(readFile("alone_4.png") == readFile("whole_4.png"));
+    // It begins in focus; later the distance lags behind the node.
+    expectSuccess(draw("0:6", "near_%d.png", {"--focus", "3"}));
+    EXPECT_TRUE(readFile("near_0.png") == readFile("whole_0.png"));
+    EXPECT_TRUE(readFile("near_4.png") != readFile("whole_4.png"));
+    write(R"("focusDistance": 3)");
+    expectSuccess(draw("0:6", "fixed_%d.png", {}));
+    EXPECT_TRUE(readFile("fixed_4.png") == readFile("near_4.png"));
+    write(R"("focusNode": "nobody")");
+    expectRefusal(
+        draw("0:6", "bad_%d.png", {}), 1, {"focus.gltf", "extras.lens.focusNode 'nobody'"}
+    );
+    writeFile(
+        "focus.gltf",
+        makeFocusScene(
+            R"({"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 2, "znear": 0.1, "zfar": 20}})"
+        )
+    );
+    expectRefusal(
+        draw("0:0", "ortho_%d.png", {"--fstop", "2"}),
+        1,
+        {"--fstop: an orthographic camera has no focal length, so no lens"}
+    );
+}
+
 TEST_F(Sequence, AFlythroughRenderedTwiceIsTheSameAndTheSecondTimeInOneFolderSkipped) {
     for (const char* folder : {"a", "b"}) {
         fs::create_directory(path(folder));

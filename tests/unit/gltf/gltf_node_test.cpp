@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Nodes: transforms, cameras, lights, velocities, extras, EXT_mesh_gpu_instancing.
 #include "engine/gltf/gltf_parts.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
 #include "tests/unit/gltf/gltf_fixture.h"
@@ -538,6 +539,38 @@ TEST(GltfLens, IsReadFromTheCamerasExtras) {
     ASSERT_EQ(some.warnings.size(), 1u);
     EXPECT_EQ(some.warnings[0], "cameras[0].extras.lens has a member 'focus': not used");
     EXPECT_FALSE(findLens(expectLoads(loadLens("{}"))));
+}
+
+core::Result<LoadedScene> loadFocus(const std::string& lens) {
+    return loadMembers(
+        R"("scene":0,"scenes":[{"nodes":[0,1,2,3]}],"nodes":[{"camera":0},{"name":"ball"},)"
+        R"({"name":"twin"},{"name":"twin"},{"name":"elsewhere"}],"cameras":[{"type":)"
+        R"("perspective","perspective":{"yfov":0.7,"znear":0.1},"extras":{"lens":{)" +
+        lens + "}}}]"
+    );
+}
+
+TEST(GltfLens, ANodeMayBeFocusedOn) {
+    const LoadedScene loaded =
+        expectLoads(loadFocus(R"("fStop":2,"focusNode":"ball","focusHalfLife":0.5)"));
+    EXPECT_TRUE(loaded.warnings.empty());
+    const auto* focus = loaded.world.registry.find<scene::AutoFocus>(loaded.world.cameras.at(0));
+    ASSERT_TRUE(focus);
+    EXPECT_EQ(focus->target, findNamed(loaded.world, "ball"));
+    EXPECT_EQ(focus->halfLife, 0.5);
+    const LoadedScene without = expectLoads(loadFocus(R"("fStop":2)"));
+    EXPECT_FALSE(without.world.registry.has<scene::AutoFocus>(without.world.cameras.at(0)));
+    const std::string at = "cameras[0].extras.lens.";
+    expectRefused(loadFocus(R"("focusNode":"nobody")"), at + "focusNode 'nobody'");
+    expectRefused(loadFocus(R"("focusNode":"twin")"), at + "focusNode 'twin'");
+    expectRefused(loadFocus(R"("focusNode":"elsewhere")"), at + "focusNode 'elsewhere'");
+    expectRefused(loadFocus(R"("focusNode":1)"), at + "focusNode");
+    expectRefused(loadFocus(R"("focusHalfLife":1)"), at + "focusHalfLife");
+    for (const char* bad : {"-1", "2000", "\"1\""})
+        expectRefused(
+            loadFocus(R"("focusNode":"ball","focusHalfLife":)" + std::string(bad)),
+            at + "focusHalfLife"
+        );
 }
 
 TEST(GltfLens, BadValuesAreRefusedByName) {

@@ -189,6 +189,37 @@ TEST_F(Focus, ACutJumpsAndACurveStaysThisSideOfInfinity) {
     }
 }
 
+TEST_F(Focus, AViewerReplacesWhatHeNamesAndScalesTheRest) {
+    pull({{0.0, 1.0, 4.0, false}, {1.0, 3.0, 4.0, false}}, PathInterpolation::Linear);
+    mWorld.registry.add(mCamera, LensOverride{});
+    EXPECT_EQ(at(0.0).focusDistance, 1.0);
+    EXPECT_EQ(at(0.0).fStop, 4.0);
+    mWorld.registry.add(mCamera, LensOverride{.fStop = 8.0, .blurScale = 0.5});
+    EXPECT_EQ(at(0.0).focusDistance, 1.0);
+    EXPECT_EQ(at(0.0).fStop, 8.0);
+    EXPECT_EQ(at(0.0).blurScale, 0.5);
+    mWorld.registry.add(mCamera, LensOverride{.focusDistance = 9.0});
+    EXPECT_EQ(at(0.0).focusDistance, 9.0);
+    EXPECT_TRUE(hasLens(mWorld, mCamera));
+    mWorld.registry.add(mCamera, LensOverride{.fStop = 8.0, .blurScale = 0.0});
+    EXPECT_FALSE(hasLens(mWorld, mCamera));
+    EXPECT_EQ(computeLensRadius(at(0.0), 0.8), 0.0);
+    mWorld.registry.remove<FocusMotion>(mCamera);
+    mWorld.registry.remove<CameraLens>(mCamera);
+    EXPECT_FALSE(hasLens(mWorld, mCamera));
+    mWorld.registry.add(mCamera, LensOverride{.fStop = 8.0});
+    EXPECT_TRUE(hasLens(mWorld, mCamera)) << "he opens a pinhole";
+    mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
+    EXPECT_FALSE(hasLens(mWorld, mCamera));
+    for (const LensOverride& bad :
+         {LensOverride{.fStop = 0.001},
+          LensOverride{.fStop = kNan},
+          LensOverride{.focusDistance = 1.0e-5},
+          LensOverride{.focusDistance = kInfinity},
+          LensOverride{.blurScale = 2.5}})
+        EXPECT_FALSE(validate(bad).ok());
+}
+
 TEST_F(Focus, BadKeysAreRefused) {
     const auto refuses = [](std::vector<FocusKey> keys) {
         EXPECT_FALSE(validateFocus({std::move(keys)}).ok());
