@@ -127,6 +127,30 @@ class Session(PlayCase):
         self.assertEqual(score, score_flown)
         self.assertTrue((after_still[60:] == after_flown[60:]).all())
 
+    def test_depth_of_field_is_the_players_and_at_scale_0_costs_nothing(self):
+        def shoot(*taps, lens):
+            script = Script().wait(2).tap("p")
+            for key in taps:
+                script.tap(key)
+            script.wait(2).add(window="quit")
+            stats = self.play("gallery", script, "--method", "resolved", display=False,
+                              size="96x54", lens=lens)
+            photos = sorted(self.folder.glob("gallery_*.png"))
+            pictures = [skimage.io.imread(photo).astype(int) for photo in photos]
+            for photo in photos:
+                photo.unlink()
+            return pictures, stats["passes"]
+
+        (pinhole,), passes = shoot("f2", lens={})
+        (off,), passes_off = shoot("f2", lens={"fStop": 0.5, "focusDistance": 1, "blurScale": 0})
+        self.assertTrue((off == pinhole).all())
+        self.assertEqual(passes_off, passes)
+        # In the middle there is the wall, which F makes sharp.
+        (near, middle), passes_near = shoot("f2", "f", "f2", lens={"fStop": 0.5, "focusDistance": 1})
+        self.assertGreater(abs(near - pinhole).mean(), 1.0)
+        self.assertGreater(set(passes_near), set(passes))
+        self.assertLess(abs(middle - pinhole).mean(), 0.5 * abs(near - pinhole).mean())
+
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
         self.play("spin", script, display=False)

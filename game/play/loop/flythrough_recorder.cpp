@@ -3,6 +3,7 @@
 
 #include "engine/extract/frame_view.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "game/play/loop/numbered_file.h"
 
@@ -15,9 +16,13 @@ namespace shutter::game {
 
 namespace {
 
-constexpr double kWidestDegrees = 179.0; ///< that a file may hold
+// That a file may hold.
+constexpr double kWidestDegrees = 179.0;
+constexpr double kWidestFStop = 0.01;
+constexpr double kClosedFStop = 1.0e9;
 
-flythrough::FlythroughKey makeKey(const scene::World& world, const extract::ViewRequest& view) {
+flythrough::FlythroughKey
+makeKey(const scene::World& world, const extract::ViewRequest& view, bool hasLens) {
     const double seconds = view.exposure.raster;
     const math::dmat4 rigid = worldFromRigid(world, view.camera, seconds);
     flythrough::FlythroughKey key;
@@ -29,6 +34,13 @@ flythrough::FlythroughKey makeKey(const scene::World& world, const extract::View
         view
     );
     key.fieldOfView = std::min(yFov * 180.0 / std::numbers::pi, kWidestDegrees);
+    if (hasLens) {
+        const scene::CameraLens lens = scene::lensAt(world, view.camera, seconds);
+        const bool isOpen = lens.fStop != 0.0 && lens.blurScale != 0.0;
+        key.focusDistance = lens.focusDistance;
+        key.fStop = isOpen ? std::clamp(lens.fStop / lens.blurScale, kWidestFStop, kClosedFStop)
+                           : kClosedFStop;
+    }
     return key;
 }
 
@@ -48,8 +60,9 @@ void FlythroughRecorder::addFrame(const scene::World& world, const extract::View
     if (keys.empty()) {
         mStartSeconds = seconds;
         mCamera = view.camera;
+        mHasLens = scene::hasLens(world, view.camera);
     }
-    flythrough::FlythroughKey key = makeKey(world, view);
+    flythrough::FlythroughKey key = makeKey(world, view, mHasLens);
     key.seconds = seconds - mStartSeconds;
     if (!keys.empty() && key.seconds <= keys.back().seconds)
         return; // paused

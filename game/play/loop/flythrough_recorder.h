@@ -22,7 +22,8 @@ class FlythroughRecorder {
 
     void start();
 
-    /// Takes the camera's place at the raster instant, and the picture's field of view, if the last
+    /// Takes the camera's place at the raster instant, the picture's field of view, and the lens
+    /// where the first camera has one, if the last
     /// key is long enough ago. Another camera than before is a cut.
     /// \param view at game times that do not fall
     void addFrame(const scene::World& world, const extract::ViewRequest& view);
@@ -35,6 +36,7 @@ class FlythroughRecorder {
     std::optional<flythrough::Flythrough> mFlight;
     ecs::Entity mCamera;                            ///< of the last frame
     double mStartSeconds = 0.0;                     ///< game time of the first key
+    bool mHasLens = false;                          ///< the first key's camera; all keys have one
     std::optional<flythrough::FlythroughKey> mLast; ///< the last frame's key, if it was not kept
 };
 

@@ -100,6 +100,9 @@ PanelWishes applyHotkeys(
     PanelWishes wishes;
     wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
     wishes.togglePhoto = input.wasPressed(Key::T);
+    const bool focuses = input.wasPressed(Key::F);
+    wishes.focusMiddle = focuses && !input.isDown(Key::Shift);
+    wishes.focusOwn = focuses && input.isDown(Key::Shift);
     wishes.savePicture = input.wasPressed(Key::F2);
     wishes.singleStep = input.wasPressed(Key::Period);
     wishes.toggleRecording = input.wasPressed(Key::R);

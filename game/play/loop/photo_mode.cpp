@@ -3,11 +3,17 @@
 
 #include "engine/core/check.h"
 #include "engine/core/setting_row.h"
+#include "engine/scene/auto_focus.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/history.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/shutter.h"
 
 #include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <utility>
 
 namespace shutter::game {
 
@@ -30,6 +36,23 @@ bool isNear(const math::dmat4& a, const math::dmat4& b) {
     return true;
 }
 
+template <class Component>
+void copyComponent(scene::World& world, ecs::Entity from, ecs::Entity to) {
+    if (const auto* found = std::as_const(world.registry).find<Component>(from)) {
+        Component copied = *found;
+        world.registry.add(to, std::move(copied));
+    }
+}
+
+/// With what zooms and focuses it, so that an exposure shows that, too.
+void copyLens(scene::World& world, ecs::Entity from, ecs::Entity to) {
+    copyComponent<scene::LensMotion>(world, from, to);
+    copyComponent<scene::CameraLens>(world, from, to);
+    copyComponent<scene::FocusMotion>(world, from, to);
+    copyComponent<scene::AutoFocus>(world, from, to);
+    copyComponent<scene::FocusTrail>(world, from, to);
+}
+
 bool isSameView(const app::FlyView& a, const app::FlyView& b) {
     return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch;
 }
@@ -43,10 +66,14 @@ void PhotoMode::turn(bool on, bool traces) {
     mPicture.reset();
 }
 
-PlaySettings PhotoMode::choose(const PlaySettings& settings) const {
+PlaySettings PhotoMode::choose(const PlaySettings& settings, bool hasLens) const {
     PlaySettings chosen = settings;
-    if (mTraces)
+    if (mTraces) {
         chosen.method = "truth";
+    } else if (hasLens) {
+        chosen.method = "accumulate";
+        chosen.instants = std::max(chosen.instants, kLensPictures);
+    }
     chosen.split = false;
     chosen.view.clear();
     return chosen;
@@ -67,14 +94,18 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
                scene::listResponseRows(), first.shutter.response, second.shutter.response
            ) &&
            first.shutter.response.samples == second.shutter.response.samples &&
-           a.cameraAtOpen == b.cameraAtOpen && a.cameraAtClose == b.cameraAtClose;
+           a.cameraAtOpen == b.cameraAtOpen && a.cameraAtClose == b.cameraAtClose &&
+           core::areEqual(scene::listLensRows(), a.lensAtOpen, b.lensAtOpen) &&
+           core::areEqual(scene::listLensRows(), a.lensAtClose, b.lensAtClose);
 }
 
 uint32_t PhotoMode::begin(const scene::World& world, const extract::ViewRequest& view) {
     Picture picture{
         view,
         scene::worldFromEntity(world, view.camera, view.exposure.open),
-        scene::worldFromEntity(world, view.camera, view.exposure.close)};
+        scene::worldFromEntity(world, view.camera, view.exposure.close),
+        scene::lensAt(world, view.camera, view.exposure.open),
+        scene::lensAt(world, view.camera, view.exposure.close)};
     if (!mPicture || !areSame(*mPicture, picture))
         mRays = 0;
     mPicture = std::move(picture);
@@ -90,10 +121,11 @@ void PhotoCamera::take(scene::World& world, ecs::Entity stageCamera, double seco
         return;
     const math::dmat4 worldFromStage = worldFromEntity(world, stageCamera, seconds);
     const math::dmat4 worldFromView = worldFromRigid(world, stageCamera, seconds);
-    const scene::Camera lens = world.registry.get<scene::Camera>(stageCamera);
+    const scene::Camera camera = world.registry.get<scene::Camera>(stageCamera);
     Out out;
     out.entity = world.registry.create();
-    world.registry.add(out.entity, lens);
+    world.registry.add(out.entity, camera);
+    copyLens(world, stageCamera, out.entity);
     // What the stage scales or mirrors is taken back; one that is scaled to nothing carries nobody.
     const math::dmat4 stageFromWorld = glm::inverse(worldFromStage);
     const bool carries = math::isFinite(stageFromWorld);

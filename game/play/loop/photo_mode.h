@@ -17,6 +17,8 @@ namespace shutter::game {
 class PhotoMode {
   public:
     static constexpr uint32_t kMostRays = 256; ///< per pixel: then nothing is added any more
+    /// Pictures of `accumulate`, at least: with fewer a lens shows bright points many times.
+    static constexpr uint32_t kLensPictures = 64;
 
     [[nodiscard]] bool isOn() const { return mIsOn; }
 
@@ -27,8 +29,9 @@ class PhotoMode {
     [[nodiscard]] bool isTracing() const { return mIsOn && mTraces; }
 
     /// The settings with which the next frame is drawn: over the whole window, by `truth` where
-    /// rays can be traced.
-    [[nodiscard]] PlaySettings choose(const PlaySettings& settings) const;
+    /// rays can be traced, else by `accumulate` where there is depth of field.
+    /// \param hasLens of the camera (scene::hasLens())
+    [[nodiscard]] PlaySettings choose(const PlaySettings& settings, bool hasLens = false) const;
 
     /// Rays per pixel that the picture has had so far: 0 where it is another one than in the call
     /// before, because the camera, the shutter or the size is.
@@ -47,6 +50,8 @@ class PhotoMode {
         extract::ViewRequest view;
         math::dmat4 cameraAtOpen{1.0};
         math::dmat4 cameraAtClose{1.0};
+        scene::CameraLens lensAtOpen;
+        scene::CameraLens lensAtClose;
     };
 
     [[nodiscard]] static bool areSame(const Picture& a, const Picture& b);

@@ -3,6 +3,9 @@
 
 #include "engine/core/log.h"
 #include "engine/core/words.h"
+#include "engine/scene/auto_focus.h"
+#include "engine/scene/lens.h"
+#include "engine/scene/ray_cast.h"
 #include "engine/scene/shutter.h"
 #include "game/play/loop/hotkeys.h"
 #include "game/play/loop/picture_files.h"
@@ -41,6 +44,7 @@ std::vector<KeyHelp> listPhotoKeys() {
         {"W A S D Q E", "fly"},
         {"right drag", "look"},
         {"wheel", "speed"},
+        {"F", "focus on the middle"},
         {"F2", "save the picture"},
         {"T", "end"}};
 }
@@ -52,6 +56,8 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
     both.savePicture = panel.savePicture || keys.savePicture;
+    both.focusMiddle = panel.focusMiddle || keys.focusMiddle;
+    both.focusOwn = panel.focusOwn || keys.focusOwn;
     both.singleStep = panel.singleStep || keys.singleStep;
     both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
@@ -293,6 +299,9 @@ PanelFacts PlayLoop::describeSession() const {
     facts.paused = mClock.isPaused();
     facts.photo = mPhoto.isOn();
     facts.photoRays = mPhoto.rays();
+    if (mPhoto.isOn())
+        facts.photoMethod = chooseSettings().method;
+    facts.lens = scene::lensAt(mStage->world(), camera(), mExposure.raster);
     facts.speed = mClock.speed();
     facts.recording = mRecorder.isRecording();
     facts.methods = mMethods;
@@ -327,6 +336,10 @@ void PlayLoop::apply(const PanelWishes& wishes) {
         turnPhotoMode(!mPhoto.isOn());
     if (wishes.speed)
         mClock.setSpeed(*wishes.speed);
+    if (wishes.focusMiddle)
+        focusOnMiddle();
+    if (wishes.focusOwn)
+        mSettings.lens.focusDistance = 0.0;
     if (wishes.savePicture)
         savePicture();
     if (wishes.singleStep) {
@@ -361,7 +374,37 @@ void PlayLoop::turnPhotoMode(bool on) {
         mMessage = fmt::format(
             "{} traces no ray queries: the photo is drawn by {}",
             mScreen.device().info().name,
-            mSettings.method
+            chooseSettings().method
+        );
+}
+
+void PlayLoop::prepareLens() {
+    ecs::Registry& registry = mStage->world().registry;
+    static const scene::LensOverride kNone;
+    if (!core::areEqual(scene::listOverrideRows(), mSettings.lens, kNone))
+        registry.add(camera(), mSettings.lens);
+    else
+        registry.remove<scene::LensOverride>(camera());
+    scene::advanceAutoFocus(mStage->world(), mExposure.close);
+}
+
+void PlayLoop::focusOnMiddle() {
+    scene::World& world = mStage->world();
+    const auto distance = scene::findMiddleDistance(world, camera(), mExposure.raster);
+    mSettings.lens.focusDistance = std::clamp(
+        distance.value_or(scene::kFarthestFocus), scene::kNearestFocus, scene::kFarthestFocus
+    );
+    mMessage = distance ? fmt::format("focused at {:.4g} m", *distance) : "focused at infinity";
+    if (world.registry.get<scene::Camera>(camera()).kind == scene::CameraKind::Orthographic)
+        mMessage += ", but an orthographic camera has no lens";
+    else if (mSettings.lens.blurScale == 0.0)
+        mMessage += ", but depth of field is off (panel, F1)";
+    else if (!scene::hasLens(world, camera()) && mSettings.lens.fStop == 0.0)
+        mMessage += ", but the camera is a pinhole: choose an F-number (panel, F1)";
+    else if (const auto method = findMethod(chooseSettings().method);
+             method && !method.value()->hasLens)
+        mMessage += fmt::format(
+            ", but {} draws pinholes: choose {}", method.value()->name, listLensMethods("or")
         );
 }
 
@@ -370,7 +413,9 @@ ecs::Entity PlayLoop::camera() const {
 }
 
 PlaySettings PlayLoop::chooseSettings() const {
-    return mPhoto.isOn() ? mPhoto.choose(mSettings) : mSettings;
+    if (!mPhoto.isOn())
+        return mSettings;
+    return mPhoto.choose(mSettings, scene::hasLens(mStage->world(), camera()));
 }
 
 void PlayLoop::savePicture() {
@@ -420,6 +465,7 @@ void PlayLoop::chooseExposure(double duration) {
     if (mExposure.close > now)
         mExposure =
             scene::computeExposure(shutter, now - (mExposure.close - mExposure.raster), duration);
+    prepareLens();
 }
 
 core::Status PlayLoop::drawPicture(double duration) {

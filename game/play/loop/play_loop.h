@@ -68,6 +68,10 @@ class PlayLoop {
     void chooseExposure(double duration);
     void replaceMissingMethods();
     void turnPhotoMode(bool on);
+    /// Gives the camera the player's lens, and takes it to where it focuses by now.
+    void prepareLens();
+    /// Focuses on what was in the middle of the last picture.
+    void focusOnMiddle();
     /// The camera that is looked through: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;
     /// Asks for the next picture as a file.

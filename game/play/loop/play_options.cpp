@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace shutter::game {
 
@@ -67,6 +68,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     defineSceneOptions(command, a.shot, "as in the settings");
     defineSizeOption(command, a.shot);
     defineFlythroughOption(command, a.shot);
+    defineLensOptions(command, a.shot);
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
@@ -102,6 +104,9 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         return makeError(
             "--camera, --flythrough and --clip belong to a scene, {} is a demo", options.demo
         );
+    // Settings of the session, for any camera that is looked through.
+    options.fStop = std::exchange(options.shot.fStop, std::nullopt);
+    options.focusDistance = std::exchange(options.shot.focusDistance, std::nullopt);
     SHUTTER_TRY(loadFlythrough(shot, options.shot));
     options.fps = shot.fps.value_or(kDefaultFps);
     options.device = arguments.device;

@@ -19,7 +19,7 @@ struct PlayArguments {
         shot.loop = true;
     }
 
-    ShotArguments shot; ///< scene, camera, flythrough, clips, loop, fps, size and light count
+    ShotArguments shot; ///< scene, camera, flythrough, clips, loop, fps, size, light, lens count
     gpu::DeviceOptions device;
     std::string ffmpeg;
     std::string method; ///< empty: the settings' own
@@ -51,6 +51,8 @@ struct PlayOptions {
     std::optional<double> uiScale;     ///< wins over the settings' own
     std::set<std::string> typed;       ///< options of shot.picture that win over the settings' own
     std::optional<bool> environment;   ///< wins over the settings' own
+    std::optional<double> fStop;       ///< wins over the settings' own; 0: no depth of field
+    std::optional<double> focusDistance; ///< metres; wins over the settings' own
     bool hasWindow = true;
     uint32_t frames = 0; ///< ends after as many; 0: never
 };

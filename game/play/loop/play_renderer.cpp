@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/play_renderer.h"
 
+#include "engine/scene/lens.h"
+
 #include <cmath>
 #include <utility>
 
@@ -50,6 +52,7 @@ std::optional<image::Image> PlayRenderer::takePicture() {
 }
 
 core::Result<PictureRequest> PlayRenderer::makeRequest(
+    const scene::World& world,
     PlaySide side,
     const render::FrameRequest& frame,
     motion_blur::UntilReady untilReady,
@@ -61,6 +64,8 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     PictureRequest request;
     request.drawsFramesBefore = false; // a window draws frames in their order
     request.frame = frame;
+    request.frame.view.usesLens =
+        method.value()->hasLens && scene::hasLens(world, frame.view.camera);
     request.slot = static_cast<uint32_t>(side);
     request.untilReady = untilReady;
     request.method.method = method.value();
@@ -92,7 +97,7 @@ core::Status PlayRenderer::draw(
         return cap.error();
     app::WindowTarget window = picture.window;
     if (settings.split) {
-        auto left = makeRequest(PlaySide::Left, frame, picture.untilReady, settings);
+        auto left = makeRequest(world, PlaySide::Left, frame, picture.untilReady, settings);
         if (!left)
             return left.error();
         mLeftView.setView(settings.view);
@@ -103,7 +108,7 @@ core::Status PlayRenderer::draw(
         window.dividerShare = settings.dividerShare;
     }
     frame.wantDisplay = picture.readBack;
-    auto right = makeRequest(PlaySide::Right, frame, picture.untilReady, settings);
+    auto right = makeRequest(world, PlaySide::Right, frame, picture.untilReady, settings);
     if (!right)
         return right.error();
     if (picture.moreRays) {

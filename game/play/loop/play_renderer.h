@@ -65,6 +65,7 @@ class PlayRenderer {
 
   private:
     [[nodiscard]] core::Result<PictureRequest> makeRequest(
+        const scene::World& world,
         PlaySide side,
         const render::FrameRequest& frame,
         motion_blur::UntilReady untilReady,

@@ -26,6 +26,13 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
             if (options.typed.contains(row.option))
                 core::copyValue(row, part(options.shot.picture), part(settings.picture));
     });
+    if (options.fStop) {
+        settings.lens.fStop = *options.fStop;
+        if (*options.fStop == 0.0)
+            settings.lens.blurScale = 0.0;
+    }
+    if (options.focusDistance)
+        settings.lens.focusDistance = *options.focusDistance;
     if (options.environment)
         settings.environment = *options.environment;
 }

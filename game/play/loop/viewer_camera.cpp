@@ -38,6 +38,10 @@ ViewerCamera::ViewerCamera(scene::World& world, ecs::Entity like, double distanc
     mEntity = world.registry.create();
     world.registry.add(mEntity, camera);
     world.registry.get<scene::Camera>(mEntity).name = "viewer";
+    if (const auto* found = world.registry.find<scene::CameraLens>(like)) {
+        const scene::CameraLens lens = *found;
+        world.registry.add(mEntity, lens);
+    }
     world.registry.add(mEntity, scene::LocalTransform{placement});
     mOrbit = app::makeOrbit(placement, distance);
     mFly = app::makeFly(placement, kFlyShare * distance);

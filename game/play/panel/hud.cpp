@@ -161,7 +161,7 @@ std::string describeState(const PanelFacts& facts) {
                     ? fmt::format(
                           "photo mode: truth, {} per pixel", core::countOf(*facts.photoRays, "ray")
                       )
-                    : "photo mode";
+                    : fmt::format("photo mode: {}", facts.photoMethod);
     else if (facts.paused)
         state = "paused";
     else if (facts.speed != 1.0)
@@ -169,6 +169,11 @@ std::string describeState(const PanelFacts& facts) {
     if (facts.recording)
         state += fmt::format("{}recording", state.empty() ? "" : ", ");
     return state;
+}
+
+/// That draws the picture, right of a split.
+const std::string& findRightMethod(const PanelFacts& facts, const PlaySettings& settings) {
+    return facts.photoMethod.empty() ? settings.method : facts.photoMethod;
 }
 
 void drawGame(Grounds& grounds, const PanelFacts& facts) {
@@ -201,9 +206,7 @@ float drawRates(Grounds& grounds, const PanelFacts& facts, const PlaySettings& s
     if (facts.right)
         column.add(
             (facts.left && settings.split ? "right: " : "") +
-            describeBlurCost(
-                facts.photoRays ? "truth" : settings.method, *facts.right, milliseconds
-            )
+            describeBlurCost(findRightMethod(facts, settings), *facts.right, milliseconds)
         );
     return column.y();
 }
@@ -216,9 +219,9 @@ float drawSides(Grounds& grounds, const PanelFacts& facts, const PlaySettings& s
     const auto describe = [&](const std::string& method, const auto* statistics) {
         return describeMethod(method, statistics, settings.budget);
     };
-    if (facts.photoRays || !settings.split) {
+    if (facts.photo || !settings.split) {
         TextColumn side(grounds, {margin(), y}, 0.0f, Way::Up);
-        side.add(facts.photoRays ? "truth" : describe(settings.method, facts.right));
+        side.add(describe(findRightMethod(facts, settings), facts.right));
         return side.y();
     }
     TextColumn left(grounds, {divider - gap, y}, 1.0f, Way::Up);

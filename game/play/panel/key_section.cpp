@@ -18,7 +18,7 @@ const std::array<KeyHelp, 7> kCommonKeys = {{
     {"Esc", "quit"},
 }};
 
-const std::array<KeyHelp, 19> kAllKeys = {{
+const std::array<KeyHelp, 18> kAllKeys = {{
     {"M, Shift+M", "next, previous method"},
     {"X", "split screen; drag the divider"},
     {"N", "method left of the split"},
@@ -30,6 +30,7 @@ const std::array<KeyHelp, 19> kAllKeys = {{
     {".", "one frame on"},
     {",  /", "slower, faster"},
     {"T", "photo mode"},
+    {"F, Shift+F", "focus on the middle of the picture, as the camera does"},
     {"F2", "save the picture as a PNG file"},
     {"R", "record the camera's flight"},
     {"F1", "this panel"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/check.h"
+#include "engine/scene/lens.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/play_settings.h"
 #include "game/play/panel/setting_widgets.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr double kSlowest = 1.0 / 64.0;
 constexpr double kFastest = 1.0;
+/// Metres, from which a focus distance is called infinite.
+constexpr double kFar = 1.0e6;
 
 /// Buttons beside one another, on a new line where the panel ends.
 class ButtonRow {
@@ -104,6 +107,14 @@ std::vector<const MethodInfo*> listShown(const PlaySettings& settings) {
     if (const auto left = findMethod(settings.leftMethod); left && settings.split)
         shown.push_back(left.value());
     return shown;
+}
+
+std::string describeLens(const scene::CameraLens& lens) {
+    return fmt::format(
+        "f/{:.3g}, focused at {}",
+        lens.fStop,
+        lens.focusDistance >= kFar ? "infinity" : fmt::format("{:.4g} m", lens.focusDistance)
+    );
 }
 
 /// Counts that are not of the blur's settings.
@@ -224,6 +235,23 @@ void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {
     if (settings.split)
         drawMethod("Left method", facts.methods, settings.leftMethod);
     drawPlayRows("split", settings, std::vector<std::string_view>{"split", "dividerShare"});
+}
+
+void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes) {
+    if (facts.lens.fStop == 0.0)
+        ImGui::TextDisabled("The camera is a pinhole: all is sharp.");
+    else
+        ImGui::TextUnformatted(describeLens(facts.lens).c_str());
+    const std::vector<const MethodInfo*> shown = listShown(settings);
+    if (std::none_of(shown.begin(), shown.end(), [](const auto* m) { return m->hasLens; }))
+        ImGui::TextDisabled("The method on the screen draws pinholes.");
+    drawRows("lens", scene::listOverrideRows(), settings.lens);
+    ButtonRow buttons;
+    wishes.focusMiddle = buttons.add(
+        "Focus on the middle", "On the surface that is in the middle of the picture. Key F."
+    );
+    wishes.focusOwn =
+        buttons.add("Camera's focus", "The camera's own focus again. Keys Shift and F.");
 }
 
 void drawReducedMotionSection(PlaySettings& settings) {

@@ -52,6 +52,8 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
             drawEffectSection(settings);
         if (unfold("Picture", false))
             drawPictureSection(facts, settings);
+        if (unfold("Depth of field", false))
+            drawLensSection(facts, settings, wishes);
         if (unfold("Reduced motion", false))
             drawReducedMotionSection(settings);
         if (unfold("Settings of the blur", false))

@@ -38,6 +38,8 @@ struct PanelFacts {
     bool paused = false;
     bool photo = false;                ///< photo mode is on
     std::optional<uint32_t> photoRays; ///< per pixel of its picture; nothing: none are traced
+    std::string photoMethod;           ///< that draws it; empty: the settings' own
+    scene::CameraLens lens;            ///< of the last picture's camera; fStop 0: a pinhole
     double speed = 1.0;
     bool recording = false;               ///< a flythrough is being recorded
     std::span<const std::string> methods; ///< that the device can run
@@ -53,6 +55,8 @@ struct PanelWishes {
     bool savePicture = false;
     bool singleStep = false;
     bool toggleRecording = false;
+    bool focusMiddle = false; ///< focus on what is in the middle of the picture
+    bool focusOwn = false;    ///< focus as the camera itself does
     bool toggleFullScreen = false;
     bool quit = false;
     std::optional<double> speed; ///< [1/64, 1]

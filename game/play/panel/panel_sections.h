@@ -24,6 +24,8 @@ void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 /// All settings of the blur: those that no shown method reads are greyed, below the others.
 void drawSettingSection(const PanelFacts& facts, PlaySettings& settings);
 void drawShutterSection(const PanelFacts& facts, PlaySettings& settings);
+/// Depth of field: what replaces the camera's own lens.
+void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes);
 void drawReducedMotionSection(PlaySettings& settings);
 void drawTimeSection(const PassHistory& history, const PlaySettings& settings);
 void drawReasonSection(const PanelFacts& facts);

@@ -2,6 +2,7 @@
 #include "game/play/panel/play_settings.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/shutter.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
@@ -37,6 +38,7 @@ Status validateRowsOfAll(const PlaySettings& settings) {
         validateRows(motion_blur::listBudgetRows(), settings.budget, "budget."),
         validateRows(motion_blur::listSettingRows(), settings.blur, "blur."),
         scene::validate(settings.shutter, "shutter."),
+        scene::validate(settings.lens, "lens."),
     };
     for (const Status& check : checks)
         if (!check)

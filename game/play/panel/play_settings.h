@@ -35,6 +35,8 @@ struct PlaySettings {
         blur{}; ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
     scene::CameraShutter shutter = makePlayShutter();
+    /// In place of the camera's own lens, for methods that have one.
+    scene::LensOverride lens;
     /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
     /// sick. At 0 only what moves in the world blurs.
     double cameraBlurScale = 1.0;

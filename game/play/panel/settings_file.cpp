@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Settings as JSON, read and written row by row.
 #include "engine/json/json_rows.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/shutter.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/budget.h"
@@ -45,6 +46,13 @@ void readShutter(const json::JsonNode& node, scene::CameraShutter& shutter) {
         json::readRows(*cuts, scene::listCutRows(), shutter.cuts);
 }
 
+void readLens(const json::JsonNode& node, scene::LensOverride& lens) {
+    json::readRows(node, scene::listOverrideRows(), lens);
+    // Ranges begin at 0, which is the camera's own; the least value is above it.
+    if (Status valid = scene::validate(lens); !valid)
+        node.fail(valid.error().message);
+}
+
 void readMethod(const json::JsonObject& object, std::string_view field, std::string& method) {
     const auto node = object.find(field);
     if (!node)
@@ -58,7 +66,7 @@ void readMethod(const json::JsonObject& object, std::string_view field, std::str
 PlaySettings readSettings(const json::JsonNode& root) {
     PlaySettings settings;
     std::vector<std::string_view> fields = {
-        "version", "method", "leftMethod", "view", "budget", "blur", "shutter"};
+        "version", "method", "leftMethod", "view", "budget", "blur", "shutter", "lens"};
     visitPictureRows([&](auto rows, const auto&) {
         for (const auto& row : rows)
             fields.push_back(row.name);
@@ -79,6 +87,8 @@ PlaySettings readSettings(const json::JsonNode& root) {
         json::readRows(*blur, motion_blur::listSettingRows(), settings.blur);
     if (const auto shutter = object.find("shutter"))
         readShutter(*shutter, settings.shutter);
+    if (const auto lens = object.find("lens"))
+        readLens(*lens, settings.lens);
     return settings;
 }
 
@@ -119,6 +129,7 @@ ordered_json describe(const PlaySettings& settings) {
     addRows(response, scene::listResponseRows(), shutter.response);
     response["samples"] = shutter.response.samples;
     addRows(shutterObject["cuts"], scene::listCutRows(), shutter.cuts);
+    addRows(described["lens"], scene::listOverrideRows(), settings.lens);
     return described;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The JSON schema of the settings file, made of the rows that read and write it.
 #include "engine/core/setting_row.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/shutter.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/budget.h"
@@ -98,6 +99,7 @@ std::string makeSettingsSchema() {
     properties["budget"] = describeObject(motion_blur::listBudgetRows());
     properties["blur"] = describeObject(motion_blur::listSettingRows());
     properties["shutter"] = describeShutter();
+    properties["lens"] = describeObject(scene::listOverrideRows());
     return schema.dump(2);
 }
 

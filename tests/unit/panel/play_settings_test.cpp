@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/lens.h"
 #include "game/play/panel/play_settings.h"
 #include "tests/unit/panel/random_settings.h"
 
@@ -62,6 +63,7 @@ template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
     each(scene::listShutterRows(), settings.shutter, "shutter.");
     each(scene::listResponseRows(), settings.shutter.response, "shutter.response.");
     each(scene::listCutRows(), settings.shutter.cuts, "shutter.cuts.");
+    each(scene::listOverrideRows(), settings.lens, "lens.");
 }
 
 /// Past the range, as any kind of number.
@@ -90,6 +92,7 @@ TEST_F(PlaySettingsFile, IsReadBackAsItWasWritten) {
         EXPECT_EQ(loaded.value().blur.softDepthExtent, settings.blur.softDepthExtent);
         EXPECT_EQ(loaded.value().blur.halfResolutionPx, settings.blur.halfResolutionPx);
         EXPECT_EQ(loaded.value().shutter.maxBlurPercent, settings.shutter.maxBlurPercent);
+        EXPECT_EQ(loaded.value().lens.focusDistance, settings.lens.focusDistance);
     }
 }
 
@@ -148,6 +151,19 @@ TEST_F(PlaySettingsFile, IsRefusedWithLineAndField) {
             .find("blur.jitter: must be a number"),
         std::string::npos
     );
+}
+
+TEST_F(PlaySettingsFile, IsRefusedWhereTheLensIsBetweenTheCamerasOwnAndTheLeastOne) {
+    EXPECT_EQ(
+        refuse("{\"version\": 1,\n \"lens\": {\"fStop\": 0.001}}"),
+        "2: lens: fStop is 0.001, it must be 0 or at least 0.01"
+    );
+    EXPECT_EQ(
+        refuse("{\"version\": 1, \"lens\": {\"focusDistance\": 1e-6}}"),
+        "1: lens: focusDistance is 1e-06, it must be 0 or at least 0.0001"
+    );
+    EXPECT_NE(refuse("{\"version\": 1, \"lens\": {\"blurScale\": 3}}"), "");
+    EXPECT_EQ(refuse("{\"version\": 1, \"lens\": {\"fStop\": 2.8, \"blurScale\": 0}}"), "");
 }
 
 TEST_F(PlaySettingsFile, IsRefusedWhereTheResponseTakesNoLight) {

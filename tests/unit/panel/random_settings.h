@@ -2,6 +2,7 @@
 // Settings that are valid and otherwise anything.
 #pragma once
 
+#include "engine/scene/lens.h"
 #include "engine/scene/shutter.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/settings.h"
@@ -36,6 +37,7 @@ class RandomSettings {
             response.samples.push_back(share());
         response.samples.back() = 0.5;
         fill(scene::listCutRows(), settings.shutter.cuts);
+        fill(scene::listOverrideRows(), settings.lens);
         return settings;
     }
 

@@ -66,6 +66,21 @@ TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
     }
 }
 
+TEST_F(Recorder, TheLensIsRecordedWhereTheFirstCameraHasOne) {
+    mWorld.registry.add(
+        mCameras[0], scene::CameraLens{.fStop = 2.0, .focusDistance = 7.0, .blurScale = 0.5}
+    );
+    mRecorder.start();
+    addFrame(mCameras[0], 0.0);
+    addFrame(mCameras[1], 0.5); // a pinhole
+    const auto flight = flythrough::readFlythrough(mRecorder.finish(mFolder).value());
+    ASSERT_TRUE(flight) << flight.error().message;
+    ASSERT_EQ(flight.value().keys.size(), 2u);
+    EXPECT_EQ(flight.value().keys[0].focusDistance, 7.0);
+    EXPECT_EQ(flight.value().keys[0].fStop, 4.0);
+    EXPECT_EQ(flight.value().keys[1].fStop, 1.0e9);
+}
+
 TEST_F(Recorder, TheFieldOfViewIsThatOfThePicture) {
     mWorld.registry.get<scene::Camera>(mCameras[0]).aspectRatio = 1.125; // twice the picture's
     mRecorder.start();

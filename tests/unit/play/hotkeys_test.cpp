@@ -49,6 +49,15 @@ TEST_F(Hotkeys, TheLeftSideHasAMethodOfItsOwn) {
     EXPECT_EQ(settings.method, PlaySettings().method);
 }
 
+TEST_F(Hotkeys, FFocusesOnTheMiddleAndWithShiftAsTheCameraDoes) {
+    const PanelWishes middle = press({Key::F});
+    EXPECT_TRUE(middle.focusMiddle);
+    EXPECT_FALSE(middle.focusOwn);
+    const PanelWishes own = press({Key::Shift, Key::F});
+    EXPECT_FALSE(own.focusMiddle);
+    EXPECT_TRUE(own.focusOwn);
+}
+
 TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
     settings.picture.antiAliasing = AntiAliasing::None;
     settings.picture.shadows.mode = extract::ShadowMode::None;

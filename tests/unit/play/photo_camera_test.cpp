@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/auto_focus.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "game/play/loop/photo_mode.h"
 
@@ -48,6 +50,32 @@ TEST_F(PhotoFlight, UntilItIsMovedItIsTheStagesCameraRollIncluded) {
     camera.advance(world, {}, 0.1, 500.0);
     for (const double seconds : {kNow, kNow - 0.02})
         expectNear(at(camera.entity(), seconds), at(stage, seconds));
+}
+
+TEST_F(PhotoFlight, ItHasTheLensOfTheCameraItHangsOnAndWhatFocusesIt) {
+    world.registry.add(stage, scene::CameraLens{.fStop = 2.0, .focusDistance = 7.0});
+    world.registry.add(
+        stage,
+        scene::FocusMotion{
+            {{0.0, 1.0, {}, false}, {1.0, 3.0, {}, false}}, scene::PathInterpolation::Linear}
+    );
+    camera.take(world, stage, kNow);
+    for (const double seconds : {kNow - 0.1, kNow}) {
+        const scene::CameraLens own = scene::lensAt(world, stage, seconds);
+        const scene::CameraLens photo = scene::lensAt(world, camera.entity(), seconds);
+        EXPECT_EQ(photo.fStop, 2.0);
+        EXPECT_EQ(photo.focusDistance, own.focusDistance) << seconds;
+    }
+    camera.putBack(world);
+    world.registry.remove<scene::FocusMotion>(stage);
+    const ecs::Entity target = world.registry.create();
+    world.registry.add(target, scene::LocalTransform{{.translation = {0, 0, -50}}});
+    world.registry.add(stage, scene::AutoFocus{target});
+    scene::advanceAutoFocus(world, kNow);
+    const double focused = scene::lensAt(world, stage, kNow).focusDistance;
+    EXPECT_GT(focused, 10.0);
+    camera.take(world, stage, kNow);
+    EXPECT_EQ(scene::lensAt(world, camera.entity(), kNow).focusDistance, focused);
 }
 
 TEST_F(PhotoFlight, ItFliesAheadAndKeepsTheBlurOfTheCameraItHangsOn) {

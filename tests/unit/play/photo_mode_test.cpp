@@ -61,6 +61,9 @@ TEST_F(Photo, AnotherPictureStartsAnew) {
             view.exposure.shutter.response.samples = {1.0, 2.0};
         },
         [&] { world.registry.get<scene::LocalTransform>(camera).transform.translation.x += 1.0; },
+        [&] { world.registry.add(camera, scene::CameraLens{.fStop = 2.0}); },
+        [&] { world.registry.add(camera, scene::LensOverride{.focusDistance = 3.0}); },
+        [&] { world.registry.add(camera, scene::LensOverride{.blurScale = 0.0}); },
     };
     for (const auto& change : changes) {
         draw();
@@ -96,6 +99,13 @@ TEST_F(Photo, WithoutRaysThePictureStaysTheMethods) {
     EXPECT_FALSE(mode.rays());
     EXPECT_EQ(mode.choose(settings).method, "gather");
     EXPECT_FALSE(mode.choose(settings).split);
+    // Depth of field is seen all the same, through enough places of the lens.
+    EXPECT_EQ(mode.choose(settings, true).method, "accumulate");
+    EXPECT_EQ(mode.choose(settings, true).instants, PhotoMode::kLensPictures);
+    settings.instants = 200;
+    EXPECT_EQ(mode.choose(settings, true).instants, 200u);
+    mode.turn(true);
+    EXPECT_EQ(mode.choose(settings, true).method, "truth");
 }
 
 } // namespace

@@ -59,6 +59,21 @@ TEST(PlayOptions, EffectsAreTheSettingsUnlessTheyAreTyped) {
     expectRefused(arguments, "bloomShare");
 }
 
+TEST(PlayOptions, TheLensIsTheSessionsNotTheScenes) {
+    PlayArguments arguments;
+    EXPECT_FALSE(interpret(arguments).value().fStop);
+    CLI::App app;
+    definePlayOptions(app, arguments);
+    app.parse(std::vector<std::string>{"3", "--focus", "2.8", "--fstop"});
+    const PlayOptions options = interpret(arguments).value();
+    EXPECT_EQ(options.fStop, 2.8);
+    EXPECT_EQ(options.focusDistance, 3.0);
+    EXPECT_FALSE(options.shot.fStop);
+    EXPECT_FALSE(options.shot.focusDistance);
+    arguments.shot.lens.fStop = 0.001;
+    expectRefused(arguments, "--fstop");
+}
+
 TEST(PlayOptions, WrongUseIsToldByOption) {
     PlayArguments arguments;
     arguments.method = "nothing";
