@@ -255,10 +255,10 @@ json describeTruth(
 ) {
     const std::string key(kTruthKey);
     const Frames frames(result, SequenceCamera::Own, key);
-    const bool isBox = film.shot.pixel == extract::PixelModel::Box;
+    const bool takesAll = film.shot.pixel == extract::PixelModel::Box || result.hasLens;
     json truth = {
         {"method", "accumulate"},
-        {"maxStepPx", isBox ? json() : json(options.truth.maxStepPx)},
+        {"maxStepPx", takesAll ? json() : json(options.truth.maxStepPx)},
         {"mostInstants", options.truth.mostInstants},
         {"instants", packQuartiles(frames.collectCounter("instants"))}};
     if (const auto drawn = result.films.find(key); drawn != result.films.end())
@@ -497,11 +497,9 @@ json describeSequence(
         described["measurements"].push_back(describeMeasurement(point, result));
     for (const double psnr : kAskedPsnr)
         described["equalError"].push_back(describeEqualError(psnr, result));
-    for (const game::MethodInfo* method : result.skipped)
+    for (const SkippedMethod& skipped : result.skipped)
         described["skipped"].push_back(
-            {{"method", method->name},
-             {"samples", nullptr},
-             {"reason", "the device does not trace the rays that it needs"}}
+            {{"method", skipped.method->name}, {"samples", nullptr}, {"reason", skipped.reason}}
         );
     return described;
 }

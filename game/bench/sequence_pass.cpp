@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/sequence_pass.h"
 
+#include "engine/scene/lens.h"
 #include "game/bench/measure.h"
 #include "game/shot/picture_drawer.h"
 
@@ -56,8 +57,8 @@ SequencePass::SequencePass(
       mRenderer(device, source.world().assets), mTonemap(device, source.options().picture.tonemap) {
     const SamplePoint most{game::findMethod("accumulate").value(), truth.mostInstants, false};
     mEachFrame.push_back({std::string(kTruthKey), makeMethodOptions(most), Judgement::Whole});
-    // The mean over the pixel takes many instants where nothing moves, too.
-    if (source.options().pixel == extract::PixelModel::Centre)
+    // The mean over the pixel or the lens takes many instants where nothing moves, too.
+    if (source.options().pixel == extract::PixelModel::Centre && !source.hasLens())
         mEachFrame.front().options.maxStepPx = truth.maxStepPx;
     const bool isOwn = camera == SequenceCamera::Own;
     for (const SamplePoint& point : plan.points)
@@ -89,6 +90,8 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wa
     const game::ShotOptions& look = mSource.options();
     game::PictureRequest picture;
     picture.frame.view = mSource.view();
+    picture.frame.view.usesLens = drawer.options.method->hasLens &&
+                                  scene::hasLens(mSource.world(), picture.frame.view.camera);
     picture.method = drawer.options;
     picture.pixel = look.pixel;
     picture.seed = look.seed;

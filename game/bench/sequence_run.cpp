@@ -310,12 +310,23 @@ core::Result<SequenceResult> measureSequence(
     const StopQuestion& stop
 ) {
     SequenceResult result;
-    std::vector<const game::MethodInfo*> able;
-    for (const game::MethodInfo* method : methods)
-        (game::canRun(*method, device) ? able : result.skipped).push_back(method);
     const auto files = writeSequenceFiles(film, options.folder);
     if (!files)
         return files.error();
+    const auto source = SequenceSource::open(film, files.value(), options.frames);
+    if (!source)
+        return source.error();
+    result.hasLens = source.value()->hasLens();
+    std::vector<const game::MethodInfo*> able;
+    for (const game::MethodInfo* method : methods)
+        if (!game::canRun(*method, device))
+            result.skipped.push_back({method, "the device does not trace the rays that it needs"});
+        else if (result.hasLens && !method->hasLens && method->family != game::MethodFamily::Sharp)
+            result.skipped.push_back(
+                {method, "it draws what a pinhole sees, not what the lens does"}
+            );
+        else
+            able.push_back(method);
     const auto hash = computeSequenceHash(film, files.value(), options, device.info());
     if (!hash)
         return hash.error();

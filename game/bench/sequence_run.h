@@ -28,10 +28,17 @@ struct SequenceOptions {
     std::optional<io::VideoEncoder> encoder; ///< nothing: no films are made
 };
 
+/// A method that did not draw the film.
+struct SkippedMethod {
+    const game::MethodInfo* method = nullptr;
+    std::string reason; ///< a sentence without a full stop
+};
+
 /// Everything known of a sequence.
 struct SequenceResult {
     SequencePlan plan;
-    std::vector<const game::MethodInfo*> skipped; ///< methods that the device cannot run
+    std::vector<SkippedMethod> skipped;
+    bool hasLens = false; ///< SequenceSource::hasLens()
     double framesPerSecond = 24.0;
     std::map<std::string, Record> records;    ///< by makeFrameKey()
     std::map<std::string, std::string> films; ///< by makeKey(), relative to the report's folder

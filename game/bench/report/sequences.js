@@ -112,7 +112,7 @@ function describeSequenceTruth(film) {
     const of = `${film.description} ${countOf(film.frames, "frame")} at ` +
         `${formatNumber(film.framesPerSecond, 0)} a second. The truth of each is accumulate with `;
     if (maxStepPx === null) {
-        return `${of}${countOf(mostInstants, "instant")}, each at another place in the pixel.`;
+        return `${of}${countOf(mostInstants, "instant")}, each at another place in the pixel or the lens.`;
     }
     return of +
         `so many instants that nothing moves farther than ${formatNumber(maxStepPx, 1)} px between ` +

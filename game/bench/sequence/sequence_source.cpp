@@ -4,7 +4,9 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "engine/io/file_bytes.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/shutter.h"
 #include "game/demos/demo.h"
@@ -48,6 +50,7 @@ class DemoSource : public SequenceSource {
         const ecs::Entity camera = mStage->camera();
         if (world.registry.find<scene::CameraShutter>(camera) == nullptr)
             world.registry.add(camera, makeDemoShutter());
+        scene::advanceAutoFocus(world, mTime.seconds);
     }
 
     [[nodiscard]] const scene::World& world() const override { return mStage->world(); }
@@ -59,6 +62,8 @@ class DemoSource : public SequenceSource {
     }
 
   protected:
+    [[nodiscard]] ecs::Entity ownCamera() const override { return mStage->camera(); }
+
     [[nodiscard]] extract::ViewRequest ownView() const override {
         const game::DemoLook look = mStage->look();
         extract::ViewRequest view;
@@ -93,6 +98,7 @@ class FlightSource : public SequenceSource {
     void advance() override {
         ++mAdvanced;
         SHUTTER_CHECK(mAdvanced <= mOptions.frameTimes.size(), "the flight is over");
+        scene::replayAutoFocus(mShot.world, ownView().exposure.close);
     }
 
     [[nodiscard]] const scene::World& world() const override { return mShot.world; }
@@ -102,6 +108,8 @@ class FlightSource : public SequenceSource {
     [[nodiscard]] core::FrameRate framesPerSecond() const override { return mOptions.fps; }
 
   protected:
+    [[nodiscard]] ecs::Entity ownCamera() const override { return mShot.camera; }
+
     [[nodiscard]] extract::ViewRequest ownView() const override {
         SHUTTER_CHECK(mAdvanced > 0, "no frame was advanced to");
         return game::makeView(mShot, mOptions, mOptions.frameTimes[mAdvanced - 1]);
@@ -140,6 +148,10 @@ extract::ViewRequest SequenceSource::view() const {
     return view;
 }
 
+bool SequenceSource::hasLens() const {
+    return scene::hasLens(world(), ownCamera());
+}
+
 StandingView SequenceSource::standingView() const {
     const extract::ViewRequest view = ownView();
     const double seconds = view.exposure.raster;
@@ -149,6 +161,7 @@ StandingView SequenceSource::standingView() const {
     standing.pose.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
     standing.lens = world().registry.get<scene::Camera>(view.camera);
     standing.lens.yFov = scene::yFovAt(world(), view.camera, seconds);
+    standing.opening = scene::lensAt(world(), view.camera, seconds);
     standing.shutter = view.exposure.shutter;
     return standing;
 }
@@ -160,6 +173,8 @@ void SequenceSource::stand(const StandingView& from) {
     registry.add(mStanding, from.lens);
     registry.add(mStanding, scene::LocalTransform{from.pose});
     registry.add(mStanding, from.shutter);
+    if (from.opening.fStop != 0.0)
+        registry.add(mStanding, from.opening);
 }
 
 core::Result<std::unique_ptr<SequenceSource>>

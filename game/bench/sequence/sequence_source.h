@@ -31,6 +31,7 @@ writeSequenceFiles(const SequenceCase& film, const std::filesystem::path& folder
 struct StandingView {
     math::Transform pose; ///< in the world
     scene::Camera lens;
+    scene::CameraLens opening; ///< fStop 0: a pinhole
     scene::CameraShutter shutter;
 };
 
@@ -48,6 +49,10 @@ class SequenceSource {
 
     /// Goes on to the next frame.
     virtual void advance() = 0;
+
+    /// The sequence's own camera has a lens at some time: methods that have none draw other
+    /// pictures.
+    [[nodiscard]] bool hasLens() const;
 
     /// What is seen in the current frame.
     [[nodiscard]] extract::ViewRequest view() const;
@@ -67,6 +72,7 @@ class SequenceSource {
     void stand(const StandingView& from);
 
   protected:
+    [[nodiscard]] virtual ecs::Entity ownCamera() const = 0;
     /// The view of the sequence's own camera.
     [[nodiscard]] virtual extract::ViewRequest ownView() const = 0;
     [[nodiscard]] virtual scene::World& changeWorld() = 0;

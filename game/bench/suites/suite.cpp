@@ -8,6 +8,7 @@
 #include "assets/generator/scenes.h"
 #include "engine/core/log.h"
 #include "game/bench/suites/courtyard_flight.h"
+#include "game/bench/suites/gallery_focus_flight.h"
 #include "game/bench/suites/gallery_script.h"
 #include "game/bench/suites/rally_flight.h"
 #include "game/bench/suites/rally_script.h"
@@ -159,6 +160,13 @@ constexpr SequenceRow kRows[] = {
      "",
      viewOf(k_rally_flight),
      90},
+    {"gallery-focus",
+     "Focus pulled through the gallery",
+     "A lens is focused at a near target, then at the far wall, past a pane that crosses.",
+     &generator::buildGalleryScene,
+     "",
+     viewOf(k_gallery_focus_flight),
+     10},
     {"rally-play",
      "The rally, driven",
      "A camera chases a car through curves: the car keeps its place, the world rushes by.",

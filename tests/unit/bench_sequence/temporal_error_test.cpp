@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where films come from, and errors between their frames.
 #include "engine/scene/camera.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "game/bench/sequence/sequence_source.h"
 #include "game/bench/sequence/temporal_error.h"
@@ -211,13 +212,19 @@ TEST_P(SequenceSources, AStandingCameraStaysWhereTheirOwnWas) {
             scene::yFovAt(source->world(), view.camera, view.exposure.raster), there.lens.yFov
         );
         EXPECT_NE(source->world().registry.find<scene::CameraShutter>(view.camera), nullptr);
+        EXPECT_EQ(scene::hasLens(source->world(), view.camera), source->hasLens());
+        const double seconds = view.exposure.raster;
+        EXPECT_EQ(
+            scene::lensAt(source->world(), view.camera, seconds).focusDistance,
+            there.opening.focusDistance
+        );
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     FlightsAndDemos,
     SequenceSources,
-    testing::Values("vase-flight", "rally-flight", "rally-play", "gallery-play"),
+    testing::Values("vase-flight", "rally-flight", "gallery-focus", "rally-play", "gallery-play"),
     [](const auto& instance) {
         std::string name = instance.param;
         std::replace(name.begin(), name.end(), '-', '_');
