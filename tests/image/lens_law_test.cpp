@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Laws of depth of field: light is spread and not lost, edges have the closed form of a disc, and
+// nothing depends on which side is which.
+#include "engine/image/metrics.h"
+#include "engine/scene/lens.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using scene::CameraLens;
+using test::SceneBuilder;
+using test::Shot;
+
+constexpr double kView = 0.9; ///< radians, vertical
+constexpr uint32_t kWide = 128;
+constexpr uint32_t kHigh = 72;
+const double kPxPerUnit = kHigh / (2.0 * std::tan(kView / 2.0));
+
+class LensLight : public test::GpuTest {};
+
+SceneBuilder makeStage(const CameraLens& lens) {
+    SceneBuilder scene;
+    scene.setPerspective(kView);
+    scene.world.registry.add(scene.camera, lens);
+    return scene;
+}
+
+/// By 256 pairs, or by 32 samples of a method of the motion blur.
+Shot makeLensShot(std::string_view method) {
+    return {
+        .method = method,
+        .width = kWide,
+        .height = kHigh,
+        .exposureSeconds = 0.0,
+        .instants = 256,
+        .pixel = accumulate::PixelModel::Box,
+        .settings = {.sampleCount = 32}};
+}
+
+double sumLight(const image::Image& picture) {
+    double sum = 0.0;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            sum += picture.at(x, y, 1);
+    return sum;
+}
+
+/// A white half plane, all left of the picture's middle, at a depth, before a dark blue wall.
+SceneBuilder makeHalfPlane(const CameraLens& lens, double depth, double wall) {
+    SceneBuilder scene = makeStage(lens);
+    scene.add(
+        test::makeQuad(40, 40, scene.addColor({0.1f, 0.2f, 0.4f})), {.position = {0, 0, -wall}}
+    );
+    scene.add(
+        test::makeQuad(20, 20, scene.addColor({0.9f, 0.8f, 0.6f})), {.position = {-10, 0, -depth}}
+    );
+    return scene;
+}
+
+/// Share of a disc of radius 1 that lies left of x.
+double discLeftOf(double x) {
+    const double at = std::clamp(x, -1.0, 1.0);
+    return 1.0 - (std::acos(at) - at * std::sqrt(1.0 - at * at)) / std::numbers::pi;
+}
+
+TEST_F(LensLight, ADiscInsideThePictureHasTheLightOfItsPoint) {
+    for (const auto& [method, most] :
+         {std::pair<std::string_view, double>{"accumulate", 0.001}, {"resolved", 0.012}})
+        for (const double depth : {1.5, 2.0, 6.0, 30.0}) {
+            const double side = 4.0 / kPxPerUnit * depth; // from border to border of pixels
+            const auto light = [&, name = method](const CameraLens& lens) {
+                SceneBuilder scene = makeStage(lens);
+                scene.add(
+                    test::makeQuad(side, side, scene.addColor({1, 1, 1})),
+                    {.position = {0, 0, -depth}}
+                );
+                return sumLight(test::renderOnce(device(), scene, makeLensShot(name)).color);
+            };
+            const double share = light({.fStop = 0.05, .focusDistance = 3.0}) / light({});
+            RecordProperty(fmt::format("{}_{}", method, depth), fmt::format("{:.4f}", share));
+            EXPECT_NEAR(share, 1.0, most) << method << " " << depth;
+        }
+}
+
+TEST_F(LensLight, AnEdgeInFocusBeforeABlurredWallShowsNothingBeyondBothColours) {
+    for (const std::string_view method : {"accumulate", "resolved"}) {
+        const SceneBuilder scene = makeHalfPlane({.fStop = 0.1, .focusDistance = 2.0}, 2.0, 8.0);
+        const image::Image seen = test::renderOnce(device(), scene, makeLensShot(method)).color;
+        const float low[] = {0.1f, 0.2f, 0.4f};
+        const float high[] = {0.9f, 0.8f, 0.6f};
+        for (uint32_t y = 0; y < kHigh; ++y)
+            for (uint32_t x = 0; x < kWide; ++x)
+                for (uint32_t c = 0; c < 3; ++c) {
+                    const float value = seen.at(x, y, c);
+                    ASSERT_GE(value, low[c] - 1e-3f) << method << " " << x << " " << y;
+                    ASSERT_LE(value, high[c] + 1e-3f) << method << " " << x << " " << y;
+                    // The edge is in focus: it is where it was.
+                    if (x + 1 < kWide / 2) {
+                        ASSERT_NEAR(value, high[c], 4e-3f) << method << " " << x << " " << y;
+                    } else if (x > kWide / 2) {
+                        ASSERT_NEAR(value, low[c], 4e-3f) << method << " " << x << " " << y;
+                    }
+                }
+    }
+}
+
+TEST_F(LensLight, ANearEdgeBeforeASharpWallIsTheIntegralOfTheDisc) {
+    const CameraLens lens{.fStop = 0.03, .focusDistance = 4.0};
+    const double depth = 2.0;
+    const double radius = 0.5 * scene::computeConfusionDiameter(
+                                    lens, scene::computeLensRadius(lens, kView), depth, kPxPerUnit
+                                );
+    ASSERT_GT(radius, 6.0);
+    for (const auto& [method, most] :
+         {std::pair<std::string_view, double>{"accumulate", 0.01}, {"resolved", 0.045}}) {
+        const SceneBuilder scene = makeHalfPlane(lens, depth, 4.0);
+        const image::Image seen = test::renderOnce(device(), scene, makeLensShot(method)).color;
+        double worst = 0.0;
+        for (uint32_t x = 0; x < kWide; ++x) {
+            // The mean over the pixel, whose places are shifted by those of the lens.
+            double expected = 0.0;
+            constexpr int kPlaces = 16;
+            for (int i = 0; i < kPlaces; ++i) {
+                const double at = x + (i + 0.5) / kPlaces - kWide / 2.0;
+                expected += (1.0 - discLeftOf(at / radius)) / kPlaces;
+            }
+            for (const uint32_t y : {kHigh / 3, kHigh / 2}) {
+                const double share = (seen.at(x, y, 0) - 0.1) / 0.8;
+                worst = std::max(worst, std::abs(share - expected));
+            }
+        }
+        RecordProperty(std::string(method), fmt::format("{:.4f}", worst));
+        EXPECT_LE(worst, most) << method;
+    }
+}
+
+TEST_F(LensLight, AMirroredSceneIsTheMirroredPicture) {
+    for (const auto& [method, least] :
+         {std::pair<std::string_view, double>{"accumulate", 50.0}, {"resolved", 45.0}}) {
+        const auto draw = [&, name = method](double side, uint32_t blades) {
+            SceneBuilder scene = makeStage(
+                {.fStop = 0.1, .focusDistance = 3.0, .blades = blades, .bladeRotation = 0.5}
+            );
+            if (side < 0.0 && blades > 0) {
+                auto& lens = scene.world.registry.get<CameraLens>(scene.camera);
+                lens.bladeRotation = std::numbers::pi - lens.bladeRotation;
+            }
+            for (const auto& [x, z, grey] :
+                 {std::tuple{-0.5, -1.5, 0.9f},
+                  {0.3, -2.0, 0.5f},
+                  {0.6, -3.0, 0.7f},
+                  {-0.9, -5.0, 0.3f}}) {
+                const auto color = scene.addColor({grey, grey * 0.5f, 0.2f});
+                scene.add(test::makeQuad(0.6, 0.9, color), {.position = {side * x, 0.1, z}});
+            }
+            Shot shot = makeLensShot(name);
+            shot.background = {0.1f, 0.15f, 0.2f};
+            return test::renderOnce(device(), scene, shot).color;
+        };
+        for (const uint32_t blades : {0u, 5u}) {
+            const double near =
+                image::computePsnr(test::mirror(draw(-1.0, blades)), draw(1.0, blades));
+            RecordProperty(fmt::format("{}_{}", method, blades), fmt::format("{:.1f}", near));
+            EXPECT_GE(near, least) << method << " " << blades;
+        }
+    }
+}
+
+TEST_F(LensLight, TwiceTheFNumberHalvesTheDiscInResolvedToo) {
+    const auto spread = [&](double fStop, double depth) {
+        const double side = 4.0 / kPxPerUnit * depth;
+        SceneBuilder scene = makeStage({.fStop = fStop, .focusDistance = 3.0});
+        scene.add(
+            test::makeQuad(side, side, scene.addColor({1, 1, 1})), {.position = {0, 0, -depth}}
+        );
+        const image::Image seen = test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+        const math::dvec2 centre = test::computeCentroid(seen);
+        double variance = 0.0;
+        for (uint32_t y = 0; y < kHigh; ++y)
+            for (uint32_t x = 0; x < kWide; ++x)
+                variance += seen.at(x, y, 1) * std::pow(y + 0.5 - centre.y, 2.0);
+        return variance / sumLight(seen);
+    };
+    for (const double depth : {1.5, 6.0, 30.0}) {
+        const double sharp = spread(0.0, depth);
+        const auto diameter = [&](double fStop) {
+            return 4.0 * std::sqrt(std::max(spread(fStop, depth) - sharp, 0.0));
+        };
+        EXPECT_NEAR(diameter(0.1), diameter(0.05) / 2.0, 0.7) << depth;
+    }
+}
+
+TEST_F(LensLight, AccumulateHasTheSameBitsInEachRunAndOrderOfEntities) {
+    std::vector<image::Image> pictures;
+    for (const bool isReversed : {false, false, true}) {
+        SceneBuilder scene = makeStage({.fStop = 0.1, .focusDistance = 3.0});
+        const auto waves = scene.addWaves();
+        for (int i = 0; i < 5; ++i) {
+            const int k = isReversed ? 4 - i : i;
+            scene.add(
+                test::makeQuad(0.7, 0.9, waves),
+                {.position = {0.4 * k - 0.8, 0.1 * k, -1.5 - 0.7 * k}, .velocity = {0.2 * k, 0, 0}}
+            );
+        }
+        Shot shot = makeLensShot("accumulate");
+        shot.exposureSeconds = 0.2;
+        shot.instants = 16;
+        pictures.push_back(test::renderOnce(device(), scene, shot).color);
+    }
+    EXPECT_TRUE(test::sameBits(pictures[1], pictures[0]));
+    EXPECT_TRUE(test::sameBits(pictures[2], pictures[0]));
+}
+
+} // namespace
+} // namespace shutter
