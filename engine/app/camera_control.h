@@ -8,18 +8,18 @@
 
 namespace shutter::app {
 
-/// Looks at a place from around it.
+/// A camera that orbits a target.
 struct OrbitView {
     math::dvec3 target{0.0}; ///< metres
     double distance = 1.0;   ///< metres, above 0
-    double yaw = 0.0;        ///< radians to the left of looking along -Z
+    double yaw = 0.0;        ///< radians to the left of -Z
     double pitch = 0.0;      ///< radians upwards, [-kMaxPitch, kMaxPitch]
 };
 
-/// Looks ahead from where it is.
+/// A camera that flies freely.
 struct FlyView {
     math::dvec3 position{0.0}; ///< metres
-    double yaw = 0.0;          ///< radians to the left of looking along -Z
+    double yaw = 0.0;          ///< radians to the left of -Z
     double pitch = 0.0;        ///< radians upwards, [-kMaxPitch, kMaxPitch]
     double speed = 1.0;        ///< metres a second
 };
@@ -30,7 +30,8 @@ inline constexpr double kMaxPitch = 1.55;
 [[nodiscard]] math::Transform placementOf(const OrbitView& view);
 [[nodiscard]] math::Transform placementOf(const FlyView& view);
 
-/// The view that looks as a camera at `placement` does, without its roll. \param distance above 0
+/// Returns the orbit view that matches the direction of a camera at `placement`, without its roll.
+/// \param distance above 0
 [[nodiscard]] OrbitView makeOrbit(const math::Transform& placement, double distance);
 [[nodiscard]] FlyView makeFly(const math::Transform& placement, double speed);
 
@@ -39,8 +40,8 @@ inline constexpr double kMaxPitch = 1.55;
 /// \param seconds that the frame took
 /// \param heightPx of the window, above 0
 void steer(OrbitView& view, const InputState& input, double seconds, double heightPx);
-/// Drag with the right button looks around, W, A, S, D, Q, E and the pad's sticks move and look,
-/// Shift is fast, the wheel sets the speed.
+/// Dragging with the right button turns the view; W, A, S, D, Q and E move it; the pad's sticks do
+/// both; Shift is faster, the wheel sets the speed.
 void steer(FlyView& view, const InputState& input, double seconds, double heightPx);
 
 } // namespace shutter::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the player does, whoever tells it: a window's events or a script's go the same way.
+// The player's input, from a window's events or from a script.
 #pragma once
 
 #include "engine/math/math.h"
@@ -82,7 +82,7 @@ struct InputState {
 /// -1, 0 or 1 of two keys that pull apart.
 [[nodiscard]] double axisOf(const InputState& input, Key negative, Key positive);
 
-/// `value` without a zone around rest in which a worn stick may stand, and continuous beyond it.
+/// Removes the zone around 0 in which a worn stick rests; continuous outside of that zone.
 [[nodiscard]] double applyDeadZone(double value);
 
 /// Takes events as they come and gives out frames of them.

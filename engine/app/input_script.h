@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A player on paper: what is done when, so that a game can be tested and filmed unattended.
+// Scripted input for automated play: events with their times, so that a game can be tested and
+// filmed unattended.
 #pragma once
 
 #include "engine/app/input.h"
@@ -64,9 +65,10 @@ struct ScriptEvent {
         what;
 };
 
-/// engine/app/input_script.schema.json says what a file holds.
+/// engine/app/input_script.schema.json defines the file format.
 struct InputScript {
-    double frameSeconds = 1.0 / 30.0; ///< every frame takes this, whatever the wall says; above 0
+    double frameSeconds = 1.0 / 30.0; ///< fixed duration of every frame, independent of wall-clock
+                                      ///< time; above 0
     std::vector<ScriptEvent> events;  ///< by rising time
 };
 

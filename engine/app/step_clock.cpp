@@ -26,7 +26,7 @@ FrameTime StepClock::advance(double wallSeconds) {
     seconds += std::exchange(mPendingSeconds, 0.0);
     FrameTime frame;
     mSeconds += seconds;
-    // As many as the time to draw lies not after; what is drawn lies between the last two.
+    // Enough steps to reach the time to draw; the picture interpolates between the last two.
     const auto wanted = static_cast<uint64_t>(std::ceil(mSeconds / mStepSeconds - kSlack));
     frame.steps = static_cast<uint32_t>(wanted - mSteps);
     mSteps = wanted;

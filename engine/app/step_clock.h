@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the time of the wall to fixed steps of a game: pause, single steps, slow motion.
+// Converts wall-clock time to fixed simulation steps: pause, single steps, slow motion.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ class StepClock {
     /// The next frame advances by this although it is paused. \param seconds above 0
     void stepOnce(double seconds) { mPendingSeconds = seconds; }
 
-    /// \param wallSeconds since the frame before; what is negative or no number counts as 0. Equal
-    /// ones give equal frames, whatever the wall: a script's way
+    /// \param wallSeconds since the previous frame; negative values and NaN count as 0. Equal
+    /// values give equal frames, which makes scripts reproducible
     [[nodiscard]] FrameTime advance(double wallSeconds);
 
   private:

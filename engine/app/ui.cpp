@@ -96,7 +96,7 @@ void addFont(ImFontAtlas& atlas, float heightPx) {
         return;
     }
     config.FontDataOwnedByAtlas = false;
-    // ImGui only reads the bytes, though it asks for a pointer through which it could write.
+    // ImGui takes a non-const pointer but only reads the bytes.
     atlas.AddFontFromMemoryTTF(
         const_cast<char*>(kUiFont), static_cast<int>(sizeof(kUiFont) - 1), heightPx, &config
     );
@@ -218,7 +218,7 @@ Ui::Ui(gpu::Device& device) : mState(std::make_unique<State>(device)) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // no file beside the program
+    io.IniFilename = nullptr; // writes no .ini file
     io.LogFilename = nullptr;
     io.BackendPlatformName = "shutter";
     io.BackendRendererName = "shutter";

@@ -15,7 +15,7 @@ namespace shutter::app {
 
 /// Height of a line of text at scale 1, pixels.
 inline constexpr float kTextPx = 15.0f;
-/// The same for what is read at a glance.
+/// The same for text that is read at a glance.
 inline constexpr float kLargeTextPx = 24.0f;
 
 /// One at a time. Widgets are declared with ImGui's own functions between begin() and end(), in
@@ -28,9 +28,9 @@ class Ui : public Overlay {
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    /// Starts a frame. Where the scale changes, the font is made anew, which waits for the GPU.
+    /// Starts a frame. Where the scale changes, the font is rebuilt, which waits for the GPU.
     /// \param windowPx size, pixels
-    /// \param scale pixels a point (Window::contentScale); taken into [0.5, 8], 1 where it is NaN
+    /// \param scale pixels per point (Window::contentScale); clamped to [0.5, 8], 1 where it is NaN
     /// \param seconds since the last frame; below 0 and NaN count as 0
     void begin(const InputState& input, const math::uvec2& windowPx, double scale, double seconds);
     /// What record() draws is complete.
@@ -41,7 +41,8 @@ class Ui : public Overlay {
     /// Text is being typed.
     [[nodiscard]] bool wantsKeys() const;
 
-    /// Draws what lies between the last begin() and end(); nothing before the first.
+    /// Draws the widgets declared between the last begin() and end(); draws nothing before the
+    /// first.
     void record(gpu::Frame& frame, const OverlayTarget& target) override;
 
   private:
@@ -49,7 +50,7 @@ class Ui : public Overlay {
     std::unique_ptr<State> mState;
 };
 
-/// Tells the current ImGui context once which of our keys its widgets read.
+/// Maps our keys to those of the current ImGui context; called once.
 void mapKeys();
 
 /// Hands one frame's input to the current ImGui context. A key or button that was pressed and

@@ -12,7 +12,7 @@ namespace shutter::app {
 
 namespace {
 
-/// GLFW's last error, or what to say without one.
+/// GLFW's last error, or a default sentence.
 std::string describeProblem() {
     const char* description = nullptr;
     glfwGetError(&description);

@@ -47,7 +47,7 @@ class Overlay {
 
 /// One frame's window.
 struct WindowTarget {
-    /// Asks for the window system's image, which is left in PRESENT_SRC layout. Called while the
+    /// Acquires the window system's image, which is left in PRESENT_SRC layout. Called while the
     /// frame is declared, after its work on the CPU, since the answer may take as long as a picture
     /// is on the display. Empty, or no answer: the frame draws on a transient.
     std::function<std::optional<gpu::SwapchainImage>()> acquire;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Programmer's mistakes: print what was expected and both values, then abort. Always on.
+// Checks for programming errors: print the expectation and both values, then abort. Enabled in
+// every build.
 #pragma once
 
 #include <fmt/format.h>

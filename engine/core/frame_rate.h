@@ -26,7 +26,7 @@ struct FrameRate {
 };
 
 /// Reads a number above 0, or a fraction of two whole numbers from 1 to 2147483647.
-/// Error: says so, without the option's or the field's name.
+/// Error: a sentence without the name of the option or field.
 [[nodiscard]] Result<FrameRate> parseFrameRate(const std::string& text);
 
 /// As parseFrameRate() reads it: "24", "29.97", "24000/1001".

@@ -10,8 +10,8 @@
 namespace shutter::core {
 
 enum class LogLevel {
-    Info,    ///< What was chosen or found; hidden unless asked for.
-    Warning, ///< The result stands but differs from what was asked for.
+    Info,    ///< Choices and findings; hidden by default.
+    Warning, ///< The result is valid but differs from the request.
 };
 
 /// Messages below `level` are dropped. Default: Warning.

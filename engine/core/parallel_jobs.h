@@ -7,7 +7,7 @@
 namespace shutter::core {
 
 /// Runs job(0) to job(count - 1) on as many threads as there are processors, in no order, and waits
-/// for all of them. Each may write to what no other looks at, and none throws.
+/// for all of them. Jobs must not share data that any of them writes, and must not throw.
 void runParallelJobs(size_t count, const std::function<void(size_t)>& job);
 
 } // namespace shutter::core

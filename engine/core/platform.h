@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What operating systems do in ways of their own. Each has a source file, platform_<system>.cpp.
+// Functions that differ between operating systems. Each has a source file, platform_<system>.cpp.
 #pragma once
 
 #include "engine/core/result.h"
@@ -12,10 +12,10 @@
 
 namespace shutter::core {
 
-/// Whether a person sees what is written to `stream`: it is a terminal.
+/// Whether `stream` is a terminal.
 [[nodiscard]] bool isTerminal(std::FILE* stream);
 
-/// A number that no other running process has.
+/// Returns this process's id, unique among running processes.
 [[nodiscard]] uint64_t getProcessId();
 
 /// Why this process may not write to a file or a device, or add files to a folder; 0: it may.
@@ -28,12 +28,11 @@ void copyOwner(const std::filesystem::path& from, const std::filesystem::path& t
 /// path is none.
 [[nodiscard]] std::optional<int> findOwnDescriptor(const std::filesystem::path& path);
 
-/// A stream of its own that writes where the descriptor stands; null, and errno set, where it is
-/// closed.
+/// Opens a stream that writes at the descriptor's position. Returns null and sets errno if the
+/// descriptor is closed.
 [[nodiscard]] std::FILE* openDescriptor(int descriptor);
 
-/// Loads a shared library by the name that the system looks it up by. It is never unloaded. The
-/// error is the system's own sentence.
+/// Loads a shared library by its system name. It is never unloaded. Error: the system's message.
 [[nodiscard]] Result<void*> openLibrary(const char* name);
 
 using FoundFunction = void (*)();

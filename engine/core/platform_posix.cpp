@@ -29,7 +29,7 @@ void copyOwner(const std::filesystem::path& from, const std::filesystem::path& t
 
     if (stat(from.c_str(), &old) != 0 || chown(to.c_str(), old.st_uid, old.st_gid) == 0)
         return;
-    // Whoever may not give files away may still give one to a group of theirs.
+    // A user without the right to change the owner may still set one of their groups.
     [[maybe_unused]] const int ignored = chown(to.c_str(), uid_t(-1), old.st_gid);
 }
 

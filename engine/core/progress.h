@@ -10,7 +10,7 @@
 namespace shutter::core {
 
 /// "label [=====     ] 5/10  3 s left"; the time left assumes that every step takes as long.
-/// \param done steps done, at most `total`; at 0 no time is known and "? s left" is said
+/// \param done steps done, at most `total`; at 0 the time is unknown and "? s left" is printed
 [[nodiscard]] std::string
 formatProgress(std::string_view label, uint64_t done, uint64_t total, double elapsedSeconds);
 
@@ -21,11 +21,11 @@ class Progress {
     using TimePoint = std::chrono::steady_clock::time_point;
     using Clock = TimePoint (*)();
 
-    /// \param label what is being done, e.g. "rendering"
+    /// \param label the activity, e.g. "rendering"
     /// \param total number of steps; 0 counts as 1
     Progress(std::string label, uint64_t total);
     /// \param output where the bar goes; must outlive the bar
-    /// \param clock tells the time, for tests
+    /// \param clock source of the time, for tests
     Progress(std::string label, uint64_t total, std::FILE* output, Clock clock);
     ~Progress();
     Progress(const Progress&) = delete;

@@ -55,7 +55,7 @@ template <class Owner> struct SettingRow {
     NumberRange range;       ///< unused unless the field is a number
     const char* meaning;     ///< one or two sentences for people
     const char* label = "";  ///< a few words for people; empty: the name serves
-    const char* option = ""; ///< of the command line, "--exposure"; empty: it has none of its own
+    const char* option = ""; ///< command-line option, "--exposure"; empty: none
 };
 
 template <class Owner> using SettingRows = std::span<const SettingRow<Owner>>;

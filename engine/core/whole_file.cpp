@@ -30,7 +30,8 @@ Error describe(const std::error_code& failure) {
     return Error{failure.message()};
 }
 
-/// Before the first byte is in it: whoever may not read the old file never may read the new one.
+/// Must run before the first byte is written: users without access to the old file never gain
+/// access to the new one.
 void takeAccess(const fs::path& from, const fs::path& to) {
     std::error_code ignored;
     const fs::file_status status = fs::status(from, ignored);
@@ -64,7 +65,7 @@ Status writeAndClose(std::FILE* file, std::span<const std::byte> bytes) {
 
 Status writeStream(const fs::path& path, std::span<const std::byte> bytes) {
     const auto descriptor = findOwnDescriptor(path);
-    std::fflush(stdout); // what was printed comes first
+    std::fflush(stdout); // flush earlier output first
     errno = 0;
     std::FILE* file =
         descriptor ? openDescriptor(*descriptor) : std::fopen(path.string().c_str(), "wb");

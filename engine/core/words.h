@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers and what they count, in sentences for people.
+// Formats counted nouns for messages.
 #pragma once
 
 #include <cstdint>

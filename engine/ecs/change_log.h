@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which entities' components of one type may have changed: every storage keeps a bounded log, and
-// readers that come again ask for what was noted since (README.md, "Changes").
+// Which entities' components of one type may have changed: every storage has a bounded log, and a
+// returning reader gets the entries since its last visit (README.md, "Changes").
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -14,16 +14,16 @@
 
 namespace shutter::ecs {
 
-/// Where a reader stands in the log of one component type. A default one has read nothing.
+/// A reader's position in the log of one component type. A default cursor has read nothing.
 struct ChangeCursor {
     uint64_t log = 0;      ///< which log; 0: there was none, since no entity had had the component
     uint64_t sequence = 0; ///< entries read
     uint64_t structureChanges = 0; ///< components added and removed by then
 };
 
-/// What may have changed since a cursor.
+/// The changes since a cursor.
 struct Changes {
-    /// More than is remembered, or the first look: everything may have changed.
+    /// The log overflowed, or this is the first read: everything may have changed.
     bool all = false;
     /// A component was added to an entity that lacked it, or removed.
     bool structure = false;
@@ -32,7 +32,7 @@ struct Changes {
     std::span<const Entity> entities;
 };
 
-/// A number that no other log of the process has; above 0.
+/// Returns a process-unique log number above 0.
 [[nodiscard]] uint64_t takeLogNumber();
 
 /// Private to SparseSetBase.
@@ -42,7 +42,7 @@ class ChangeLog {
     static constexpr size_t kRemembered = 1024;
 
     void note(Entity entity) {
-        // One entity that is written again and again fills no log, unless somebody read in between.
+        // Repeated writes to one entity add a single entry between two reads.
         if (!mEntries.empty() && mEntries.back() == entity &&
             !mWasRead.load(std::memory_order_relaxed))
             return;

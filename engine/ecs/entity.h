@@ -10,8 +10,8 @@
 
 namespace shutter::ecs {
 
-/// A handle to an entity of one Registry. Indices are used again, generations are not: a handle
-/// kept after its entity was destroyed is told apart from the entity that took its place.
+/// A handle to an entity of one Registry. Indices are reused, generations are not: a stale handle
+/// never equals the handle of the entity that reuses its index.
 struct Entity {
     uint32_t index = 0xFFFFFFFFu; ///< slot of the registry; all ones in the null entity
     uint32_t generation = 0;      ///< how many entities had this slot before

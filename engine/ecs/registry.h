@@ -28,8 +28,8 @@ template <class T> [[nodiscard]] uint32_t typeIndex() {
 /// Entities and their components (README.md). Structural changes are create, destroy, add and
 /// remove; they invalidate references to components of the types concerned, and they are a CHECK
 /// failure while a view or entities() is being iterated: record them in Commands instead. Several
-/// threads may read a const registry that nobody writes; asking one that is not const for a
-/// component that is not const is writing (changesSince).
+/// threads may read a const registry while no thread writes it; non-const access to a component
+/// counts as a write (changesSince).
 class Registry {
   public:
     Registry() = default;
@@ -106,9 +106,9 @@ class Registry {
         return {mIterationCount, findSet<std::remove_const_t<Components>>()...};
     }
 
-    /// Which components of type T may have changed since `cursor`, which then stands at now. All
-    /// that gives out a component to be written counts: add, remove, destroy, and find, get and
-    /// views that are not const. Writing later through a reference kept from then is not seen.
+    /// Which components of type T may have changed since `cursor`, and advances `cursor` to now.
+    /// Every non-const access counts: add, remove, destroy, and non-const find, get and views.
+    /// Later writes through a stored reference are not detected.
     template <class T> [[nodiscard]] Changes changesSince(ChangeCursor& cursor) const {
         if (const SparseSet<T>* set = findSet<T>())
             return set->changes().since(cursor);

@@ -84,7 +84,7 @@ template <class T> class SparseSet final : public SparseSetBase {
     );
 
   public:
-    /// Counts as a change: who only reads asks a const storage.
+    /// Marks the component as changed; use the const overload for read-only access.
     [[nodiscard]] T* find(Entity entity) {
         const uint32_t position = positionOf(entity);
         if (position == kAbsent)

@@ -94,7 +94,7 @@ template <class... Components> class View {
         Sets mSets;
     };
 
-    /// A null set stands for a component that no entity has had yet: the view is empty.
+    /// A null set means that no entity has had the component yet: the view is empty.
     View(std::atomic<uint32_t>& iterationCount, Set<Components>*... sets)
         : mIterationCount(&iterationCount), mSets(sets...) {}
 

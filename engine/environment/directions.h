@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of all directions while they are made: floats, and looked up between texels.
+// Equirectangular float pictures under construction, sampled bilinearly.
 #pragma once
 
 #include "engine/image/image.h"
@@ -32,7 +32,7 @@ namespace shutter::environment {
 /// The picture and its halves, down to a width of at most `least`.
 [[nodiscard]] std::vector<image::Image> makePyramid(image::Image picture, uint32_t least);
 
-/// Looks a pyramid up between two of its levels. \param level 0: the first; clamped to those there
+/// Samples a pyramid between two of its levels. \param level 0: the first; clamped to those there
 [[nodiscard]] math::vec3
 samplePyramid(const std::vector<image::Image>& pyramid, math::dvec3 direction, double level);
 

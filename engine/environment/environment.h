@@ -28,9 +28,9 @@ struct EnvironmentSettings {
 /// Names, ranges and options of EnvironmentSettings.
 [[nodiscard]] core::SettingRows<EnvironmentSettings> listEnvironmentRows();
 
-/// \param picture linear, equirectangular, twice as wide as high; one channel is grey, more than
-/// three are not looked at. Negative values and NaN count as 0, and what half floats cannot hold as
-/// the most that they can.
+/// \param picture linear, equirectangular, twice as wide as high; one channel is grey, channels
+/// after the third are ignored. Negative values and NaN count as 0; values are clamped to the range
+/// of half floats.
 /// Error: a size or a setting out of its range, without the file's name.
 [[nodiscard]] core::Result<scene::Environment>
 makeEnvironment(image::Image picture, const EnvironmentSettings& settings);

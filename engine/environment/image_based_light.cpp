@@ -57,7 +57,7 @@ constexpr uint32_t kMostSamples = 512;
 struct LobeSample {
     math::dvec3 direction{0.0}; ///< z: the axis
     double weight = 0.0;        ///< its cosine
-    double solidAngle = 0.0;    ///< that it stands for, steradians
+    double solidAngle = 0.0;    ///< of the texel, steradians
 };
 
 /// \param roughness perceptual, (0, 1]
@@ -143,7 +143,7 @@ image::Image filterAll(
 
 std::array<math::vec3, 9> projectIrradiance(const image::Image& picture) {
     std::array<math::dvec3, 9> sums{};
-    // A small picture has too few texels to tell the harmonics apart.
+    // A small picture has too few texels to resolve the harmonics.
     const uint32_t width = std::max(picture.width, 64u);
     const uint32_t height = std::max(picture.height, 32u);
     for (uint32_t y = 0; y < height; ++y) {

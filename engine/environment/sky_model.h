@@ -15,13 +15,13 @@ struct SkySettings {
     double turbidity = 2.5;           ///< [kLeastTurbidity, kMostTurbidity]
     math::dvec3 toSun{0.0, 1.0, 0.0}; ///< unit, world
     math::vec3 sunIlluminance{1.0f};  ///< what the scene's sun gives a surface facing it; linear
-    double intensity = 1.0;           ///< factor of the sky over what it is outside, [0, 1000]
+    double intensity = 1.0;           ///< factor over the physical sky, [0, 1000]
     math::vec3 groundAlbedo{0.20f, 0.19f, 0.17f};
 };
 
 /// Radiance of a clear sky: Preetham, Shirley and Smits 1999, appendix A.2, in the units of the
-/// sun's illuminance, so that sun and sky stand in the proportion that they have outside. Finite
-/// and not negative. A sun less than one degree above the horizon is taken to be there.
+/// sun's illuminance, so that the ratio of sun to sky is physical. Finite and not negative. A sun
+/// less than one degree above the horizon is taken to be there.
 class Sky {
   public:
     explicit Sky(const SkySettings& settings);
@@ -29,7 +29,7 @@ class Sky {
     /// \param direction unit; below the horizon lies ground, lit by sun and sky
     [[nodiscard]] math::vec3 radianceOf(math::dvec3 direction) const;
 
-    /// Radiance of the sun's disc, at most kDiscMost times the brightest sky beside it.
+    /// Radiance of the sun's disc, at most kDiscMost times the radiance of the brightest sky.
     [[nodiscard]] math::vec3 discRadiance() const { return mDisc; }
 
     /// Unit; where the disc is drawn.
@@ -47,13 +47,13 @@ class Sky {
 };
 
 inline constexpr double kSunRadius = 0.00465; ///< radians, seen from the earth
-/// The sun is some 10^5 times as bright as the sky beside it, more than half floats hold and lenses
-/// pass on; this much is white by any exposure that shows the sky.
+/// The sun is about 10^5 times as bright as the sky, which exceeds the range of half floats; this
+/// clamped value is white at any exposure that shows the sky.
 inline constexpr double kDiscMost = 500.0;
 
-/// Equirectangular pictures: what lights a scene, a quarter of `width` wide, for nothing but the
-/// sun is sharp in a sky; and what is seen, `width` wide, with the sun's disc, whose light the
-/// scene's sun gives.
+/// Equirectangular pictures: one for lighting, `width` / 4 wide because only the sun is sharp in a
+/// sky; and the background, `width` wide, with the sun's disc, whose light comes from the scene's
+/// sun.
 struct SkyPictures {
     image::Image light;
     image::Image background;

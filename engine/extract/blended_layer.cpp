@@ -22,7 +22,7 @@ using math::dvec4;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// What moves less does not move in the picture.
+/// Shorter motion counts as none.
 constexpr double kStillWayPx = 0.5;
 
 /// A row with blended surfaces.
@@ -52,7 +52,7 @@ std::vector<Blended> listBlended(const SweptScene& scene) {
     return rows;
 }
 
-/// Takes in whatever overlaps what is in already, until nothing does.
+/// Adds rows that overlap rows already added, until no more do.
 void closeOver(std::vector<Blended>& rows) {
     std::vector<size_t> reached;
     for (size_t i = 0; i < rows.size(); ++i)
@@ -127,7 +127,7 @@ class LayerPlanner {
 
     /// How the instants differ, apart from where the layer is.
     void findDifferences() {
-        // What still glass lets through is blurred as if the glass were not there.
+        // Movers seen through static glass are blurred as if the glass were not there.
         const auto behind = mScene.sweepOpaqueMovers();
         const auto before = mScene.cameraMoves ? mScene.sweepOpaque() : behind;
         for (const Blended& one : mRows) {
@@ -158,7 +158,7 @@ class LayerPlanner {
         );
     }
 
-    /// As many as there is memory for; without enough for one, none is looked up.
+    /// As many as fit into memory; 0 without room for one.
     uint32_t fitLayer(uint32_t count) {
         shader::InstantSurfaces wanted = mLayer.surfaces();
         wanted.instantCount = count;
@@ -255,7 +255,7 @@ class LayerPlanner {
     LayerLimits mLimits;
     BlendedLayer mLayer;
     bool mIsHidden = false;     ///< opaque surfaces may hide other parts of it at other instants
-    bool mIsCorrelated = false; ///< it moves, and so does what lies behind it
+    bool mIsCorrelated = false; ///< both the layer and its background move
     std::vector<Blended> mRows;
     std::vector<double> mTimes; ///< of the instants
     std::vector<dmat4> mClips;  ///< clip space from the world at each of them

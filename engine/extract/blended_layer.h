@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which blended surfaces leave the raster, because one picture of them cannot stand for the
-// exposure, and how they are drawn over the blurred picture instead: at several instants.
+// Which blended surfaces leave the raster, because one picture cannot represent them over the
+// exposure, and the plan for drawing them over the blurred picture at several instants.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -17,10 +17,10 @@ namespace shutter::extract {
 /// Pixels that a blended surface may move between two instants at which it is drawn.
 inline constexpr double kLayerStepPx = 2.5;
 
-/// Rows of the entity table whose blended surfaces leave the raster, rising: what moves or deforms
-/// in the world, what something that does may pass, as boxes on the screen over the exposure say,
-/// and what may lie before or behind such a surface, so that their order holds. Empty where a
-/// picture of the raster instant is all there is to see of the blended ones.
+/// Returns the rows of the entity table whose blended surfaces leave the raster, in rising order:
+/// those that move or deform in the world; those whose screen box over the exposure overlaps a
+/// mover's; and those that may lie in front of or behind such a surface, so that the drawing order
+/// is preserved. Empty where the raster instant shows the blended surfaces correctly.
 /// \param motion of the view's exposure
 [[nodiscard]] std::vector<uint32_t> findLayerRows(
     const scene::World& world,
@@ -41,9 +41,9 @@ struct BlendedLayer {
     math::uvec2 sizePx{0};   ///< 0: nothing of it is in the picture
     std::vector<shader::LayerInstant> instants;
     uint32_t partCount = 1; ///< of the exposure, each composited over its own background
-    /// What hides the layer, or lies behind it, differs between the instants: their depths and the
-    /// parts' colours are looked up (shaders/common/instant_surfaces.glsl). Otherwise the raster's
-    /// depth hides it, and testFromEye goes to the raster's picture.
+    /// The surfaces in front of or behind the layer differ between the instants: depths per instant
+    /// and colours per part are looked up (shaders/common/instant_surfaces.glsl). Otherwise the
+    /// layer is tested against the raster's depth, and testFromEye maps to the raster's picture.
     bool readsInstants = false;
     std::vector<LayerItem> items; ///< nearest first
     std::vector<shader::LayerPlace> places;
@@ -57,11 +57,11 @@ struct BlendedLayer {
 };
 
 struct LayerLimits {
-    uint32_t instants = 15; ///< most that are drawn, and looked up
+    uint32_t instants = 15; ///< maximum that are drawn and looked up
     /// Above 1: so many at least, each with its sample elsewhere in the pixel, for a picture whose
     /// edges are anti-aliased.
     uint32_t leastInstants = 1;
-    bool findsInstants = false; ///< the method can look depths and colours of instants up
+    bool findsInstants = false; ///< the method can look up depths and colours of instants
     uint64_t surfaceBytes = 0;  ///< most memory for them
 };
 

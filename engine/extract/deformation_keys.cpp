@@ -162,7 +162,7 @@ bool follows(
     return true;
 }
 
-/// Looks at the probes. Nothing where the shape is not finite at one of them.
+/// Evaluates the shape at the probe times. Nothing where it is not finite at one of them.
 struct Sweep {
     Bounds bounds;
     bool changes = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A deformed mesh's way through the exposure, for rays that each have their own time: its place as
-// motion_keys.h has it, and keys of its shape between which shaders interpolate each vertex
-// linearly.
+// The motion of a deformed mesh over the exposure, for time-sampled rays: its place as in
+// motion_keys.h, and keys of its shape between which shaders interpolate each vertex linearly.
 #pragma once
 
 #include "engine/extract/motion_keys.h"
@@ -15,8 +14,8 @@
 
 namespace shutter::extract {
 
-/// Most intervals between keys of a shape: each has its own acceleration structure. What changes
-/// faster than they can follow is drawn out over 1/256 of the exposure.
+/// Maximum number of intervals between keys of a shape; each has its own acceleration structure.
+/// Faster changes are spread over 1/256 of the exposure.
 inline constexpr uint32_t kMaxDeformationIntervals = 256;
 
 /// The shape at shutter time s in [0, 1].
@@ -34,10 +33,10 @@ struct DeformedMotion {
     DeformationKeys shape;
 };
 
-/// Most that any vertex of the pose half way (share t) between the keys a and b can be off `exact`
-/// when it goes straight from one to the other, metres in object space. An upper bound, from the
-/// joints' matrices, the weights and the waves alone: blending skins is linear in the matrices and,
-/// at fixed matrices, in the weights; a wave is linear in sine and cosine of its phase.
+/// Maximum distance, in metres in object space, of any vertex interpolated linearly between the
+/// keys a and b (share t) from its place in `exact`. An upper bound, from the joints' matrices, the
+/// weights and the waves alone: blending skins is linear in the matrices and, at fixed matrices, in
+/// the weights; a wave is linear in sine and cosine of its phase.
 [[nodiscard]] double measureDeformationDeviation(
     const scene::Deformation& exact,
     const scene::Deformation& a,
@@ -46,7 +45,7 @@ struct DeformedMotion {
     const scene::PoseReach& reach
 );
 
-/// Place and shape each within the tolerance, looked at at 33 instants at least (see
+/// Computes keys of place and shape, each within the tolerance, probed at 33 instants or more (see
 /// computeMotionKeys).
 /// \return nothing where place or shape is not finite at one of the instants
 [[nodiscard]] std::optional<DeformedMotion> computeDeformedMotion(

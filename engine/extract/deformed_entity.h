@@ -20,11 +20,11 @@ struct DeformedEntity {
     scene::Deformation close;
     math::Bounds bounds;  ///< raster instant, object space: holds every vertex
     bool changes = false; ///< open, raster instant and close are not one shape
-    /// A joint that all of the shape moves with, where it changes as a rigid body does that turns:
-    /// at each of the three times the joint's matrix takes it there. Nothing: it deforms, or is one
-    /// shape.
+    /// The joint that moves the whole shape, if the shape changes like a rotating rigid body: at
+    /// each of the three times the joint's matrix gives the shape. Nothing: it deforms, or does not
+    /// change.
     std::optional<uint32_t> carrier;
-    bool mirrored = false; ///< the joints turn the winding round
+    bool mirrored = false; ///< the joints reverse the winding
 };
 
 /// Shutter times of a frame's three shapes, [0, 1].

@@ -16,7 +16,7 @@ namespace shutter::extract {
 
 namespace {
 
-/// More movers than these are not looked at one by one.
+/// Above this count, movers are not tested one by one.
 constexpr size_t kMostMovers = 64;
 
 constexpr double kMarginPx = 1.0;
@@ -60,7 +60,7 @@ ScreenBox findBox(const ExtractedFrame& frame, const SceneLayout& layout, uint32
             box.most[axis] = std::max(box.most[axis], double(clip[axis]) / double(clip.w));
         }
     }
-    // What crosses the near plane, and what is no number, may be anywhere.
+    // Boxes that cross the near plane or contain NaN may be anywhere.
     if (!(box.nearest <= box.farthest))
         return {row, {-1.0, -1.0}, {1.0, 1.0}, -kInfinity, kInfinity};
     if (crossesNear || !(box.least[0] <= box.most[0]) || !(box.least[1] <= box.most[1]))
@@ -83,7 +83,7 @@ bool liesBehind(const ScreenBox& box, const ScreenBox& mover) {
     return true;
 }
 
-/// Calls `visit` with each row of a list of draws, far to near, until it says true.
+/// Calls `visit` with each row of a list of draws, far to near, until it returns true.
 template <class Visit> bool visitRows(const std::vector<DrawItem>& draws, Visit&& visit) {
     for (auto item = draws.rbegin(); item != draws.rend(); ++item) {
         const bool again = item != draws.rbegin() && std::prev(item)->entity == item->entity;

@@ -19,8 +19,8 @@ struct SurfaceDemand {
 
 /// Whether a surface of one entity may lie behind another one that moves in the picture, as seen at
 /// the raster instant. Conservative: boxes on the screen decide, and blended surfaces always count.
-/// Skipped only where a ray past any mover would find nothing but the sky. Looks from far to near,
-/// where most pictures have their background, and stops at the first that is found.
+/// Skipped only where a ray past any mover would find nothing but the sky. Searches from far to
+/// near, since most backgrounds are far, and stops at the first hit.
 [[nodiscard]] core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layout);
 
 } // namespace shutter::extract

@@ -60,8 +60,8 @@ bool isAbrupt(const Jump& jump, double way, const WayBetween& wayBetween) {
     return way > kLeastSpeedUp * around;
 }
 
-/// Whether a view sees what jumps during its exposure: two places of the same surface with no way
-/// between them that anything takes.
+/// Decides whether a jump during the exposure is visible: a surface in two places, with no motion
+/// between them.
 class JumpSight {
   public:
     /// All must outlive this. \param motion of the view's exposure
@@ -162,7 +162,7 @@ JumpSight::poseAt(ecs::Entity entity, uint32_t mesh, double seconds) const {
 bool JumpSight::isInView(const std::optional<Posed>& posed, double seconds) const {
     if (!posed)
         return false;
-    // What is not in the picture may cast a shadow into it.
+    // Casters outside of the picture may cast a shadow into it.
     if (mView.shadows.mode != ShadowMode::None)
         return true;
     const dmat4 clipFromEye =
@@ -292,7 +292,7 @@ findJumps(const scene::World& world, const SceneLayout& layout, const ViewReques
     return seen;
 }
 
-/// What lies between the jumps, and of those that take their time the way itself.
+/// Splits the exposure at the jumps; a jump that takes time becomes a part itself.
 /// \param jumps at least one
 std::vector<Jump> cutAtJumps(const ExposureInterval& exposure, std::vector<Jump> jumps) {
     std::sort(jumps.begin(), jumps.end());
@@ -350,7 +350,7 @@ measureLight(const ExposureInterval& exposure, const std::vector<Jump>& parts) {
 
 constexpr uint32_t kProbes = 64;
 constexpr double kStraight = 0.9;
-/// What bends moves along arcs that its box does not tell.
+/// Deforming entities move along arcs that their boxes do not show.
 constexpr uint32_t kDeformedParts = 4;
 
 /// A box's way through the exposure, metres.

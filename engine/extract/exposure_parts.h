@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The parts of an exposure: those within which nothing that is seen jumps, and as many equal ones
-// as show bent ways straight. A raster image and motion vectors can show one way of each surface:
-// what is in two places during an exposure, or in none for a while, takes a picture for each part,
-// of which the frame's is the mean by light.
+// Splits an exposure into parts: at jumps of visible surfaces, and into equal parts that are short
+// enough for curved motion to be straight within each. A raster image and motion vectors hold one
+// motion per surface. A surface that is in two places during an exposure, or hidden for a while,
+// needs a picture per part; the frame is their mean, weighted by light.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -13,7 +13,7 @@
 
 namespace shutter::extract {
 
-/// Most parts: where more jumps, the shortest are joined, and are taken as straight motion.
+/// Maximum number of parts. Beyond it the shortest are joined and treated as straight motion.
 inline constexpr size_t kMaxExposureParts = 8;
 
 struct ExposurePart {
@@ -22,10 +22,10 @@ struct ExposurePart {
 };
 
 /// The last one is the part that holds the frame's raster instant, or is the nearest to it; the
-/// others are in their order; a part with less than scene::kLeastLight is left out. Empty: nothing
-/// jumps, and the exposure is one. What jumps by less than a quarter of a pixel, or where no one
-/// sees it, does not count, nor does a light, nor the way of what has no past (history.h). A
-/// camera's jump that is a cut leaves nothing that moves.
+/// others are in order of time; parts with less than scene::kLeastLight are left out. Empty:
+/// nothing jumps, and the exposure is not split. Ignored are jumps of less than a quarter of a
+/// pixel, jumps that are not visible, lights, and entities without a past (history.h). After a
+/// camera cut nothing moves.
 [[nodiscard]] std::vector<ExposurePart>
 planExposureParts(const scene::World& world, const SceneLayout& layout, const ViewRequest& view);
 
@@ -35,15 +35,15 @@ inline constexpr uint32_t kMaxMotionParts = 32;
 struct MotionParts {
     /// Parts of equal length, a power of two; 0: nothing moves or deforms, neither does the camera.
     uint32_t count = 0;
-    /// Longest way of a caster of shadows at its distance from the camera, pixels: what a shadow
-    /// may move, whose caster need not be in the picture. 0 without shadows.
+    /// Longest motion of a shadow caster at its distance from the camera, pixels: an estimate of
+    /// the shadow's motion, whose caster may be outside of the picture. 0 without shadows.
     double casterPx = 0.0;
     /// A light moves that lights the picture.
     bool movesLight = false;
 };
 
-/// Each part's chord is at least 0.9 of the way, for all that moves at all. Motion is looked at at
-/// 65 instants; what comes and goes between two of them is not seen.
+/// Chooses the count so that in each part the chord of every motion is at least 0.9 of its path.
+/// Motion is sampled at 65 instants; changes between two of them are missed.
 /// \param frame extracted from `world` with `view`
 [[nodiscard]] MotionParts planMotionParts(
     const scene::World& world,

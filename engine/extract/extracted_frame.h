@@ -22,7 +22,7 @@
 
 namespace shutter::extract {
 
-/// Most rows of the entity table: ray tracing gives instances 24 bits.
+/// Maximum number of rows of the entity table: instance indices of ray tracing have 24 bits.
 inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
 
 /// Where inside the pixel a sample is taken.
@@ -31,7 +31,7 @@ enum class PixelModel : uint8_t {
     Box,    ///< anywhere, evenly: a box filter one pixel wide
 };
 
-/// What extraction needs to know of a scene's meshes, once they are on the device.
+/// The data of a scene's meshes that extraction needs once they are on the device.
 struct SceneLayout {
     struct GeometryInfo {
         uint32_t firstIndex = 0;
@@ -55,15 +55,15 @@ struct SceneLayout {
 /// How a camera's frame lies in a picture of another shape; it is in the middle, and pixels are
 /// square.
 enum class FrameFit : uint8_t {
-    Whole, ///< all of it is in the picture (glTF 2.0, 3.10.3), which shows more beside it
+    Whole, ///< the whole frame is visible (glTF 2.0, 3.10.3), with margins where the shapes differ
     Height ///< it is as high as the picture: a narrower picture crops its sides
 };
 
 /// What ViewRequest::jitterPx moves.
 enum class Jittered : uint8_t {
     All,
-    /// What is where it was one frame ago and does not move during the exposure; nothing while the
-    /// camera moves.
+    /// Entities that did not move since the previous frame and do not move during the exposure;
+    /// none while the camera moves.
     Static,
 };
 
@@ -83,8 +83,8 @@ struct ViewRequest {
     Jittered jittered = Jittered::All;
     /// Edges are drawn with several samples per pixel while the camera moves, where the device can.
     bool samplesEdges = false;
-    /// The camera has a lens (scene::hasLens()), and the picture is what it sees: the method takes
-    /// many places of it. False: what a pinhole in its middle sees.
+    /// The camera has a lens (scene::hasLens()), and the method samples many points of it. False:
+    /// the view of a pinhole at its centre.
     bool usesLens = false;
     /// Where in the lens the raster is taken from, [0, 1)^2 (aperturePoint()); nothing: its middle.
     std::optional<math::dvec2> lensPlace{};
@@ -108,12 +108,12 @@ struct DrawItem {
     uint32_t geometryRow = 0;
     scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
     bool doubleSided = false;
-    bool mirrored = false; ///< the transform, the skeleton or the view turns the winding round
+    bool mirrored = false; ///< the transform, the skeleton or the view reverses the winding
     float distance = 0.0f; ///< of the bounds' centre from the camera, metres
 };
 
-/// Draws sorted by distance, of equals by row. What is static in the world keeps its places from
-/// frame to frame in a list of its own.
+/// Draws sorted by distance, then by row. Static entities are in a separate list, whose order is
+/// preserved from frame to frame.
 struct DrawList {
     bool farFirst = false;
     std::vector<DrawItem> still;
@@ -129,7 +129,7 @@ struct DrawList {
         return a.entity != b.entity ? a.entity < b.entity : a.geometry < b.geometry;
     }
 
-    /// Visits all in the order of drawing.
+    /// Visits all items in drawing order.
     template <class Visit> void forEach(Visit&& visit) const {
         auto next = moving.begin();
         for (const DrawItem& item : still) {
@@ -140,7 +140,7 @@ struct DrawList {
         std::for_each(next, moving.end(), visit);
     }
 
-    /// All in the order of drawing.
+    /// Returns all items in drawing order.
     [[nodiscard]] std::vector<DrawItem> merge() const {
         std::vector<DrawItem> all;
         forEach([&](const DrawItem& item) { all.push_back(item); });
@@ -151,7 +151,7 @@ struct DrawList {
 /// Which rows of the entity table are not as they were at an earlier frame of the same
 /// FrameExtractor.
 struct RowChanges {
-    uint64_t revision = 0; ///< of this frame's rows; no other of the process has it
+    uint64_t revision = 0; ///< process-unique revision of this frame's rows
     uint64_t since = 0;    ///< revision of the earlier frame's; 0: there was none
     bool all = true;
     std::vector<uint32_t> rows; ///< unless `all`
@@ -164,8 +164,8 @@ struct ExtractedFrame {
     std::vector<shader::EntityMotion> stillMotions; ///< ... while they are static in the world
     std::vector<shader::EntityMotion> movingMotions;
     RowChanges changes; ///< of `entities`
-    /// Rows that something moves or deforms, that have a MotionBlur's scale, or that were written
-    /// to since the rows were listed; in rising order. The others are static in the world.
+    /// Rows that move, deform, have a MotionBlur's scale, or were written to since the rows were
+    /// listed; in rising order. The others are static in the world.
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows are static; no two frame extractors have the same.
     uint64_t stillSet = 0;
@@ -175,19 +175,19 @@ struct ExtractedFrame {
     uint64_t stillRevision = 0;
     /// With Jittered::Static: whether the camera is where it was one frame ago, and stays there.
     bool isCameraAtRest = false;
-    /// One per row of its own, with Jittered::Static: whether the entity is, and keeps its shape.
-    /// The jitter moves those that are, unless the camera moves.
+    /// One per own row, with Jittered::Static: whether the entity is at rest and does not deform.
+    /// Such entities are jittered unless the camera moves.
     std::vector<bool> atRest;
-    std::vector<math::dmat4> worldFromObject; ///< one per row of its own: at the raster instant
+    std::vector<math::dmat4> worldFromObject; ///< one per own row: at the raster instant
     std::vector<uint32_t> entityMeshes;       ///< one per row: index into Assets::meshes
     std::vector<ecs::Entity> entityHandles;   ///< one per row: its entity
     /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
-    /// frame's geometry table stand behind the scene's own, one entity's behind the other's.
+    /// frame's geometry table follow the scene's own, entity after entity.
     std::vector<DeformedEntity> deformed;
     DrawList opaque{.farFirst = false, .still = {}, .moving = {}}; ///< opaque and masked
     DrawList blended{.farFirst = true, .still = {}, .moving = {}};
-    /// Rows whose blended surfaces are not in the raster, rising (blended_layer.h): whoever set
-    /// them draws these over it. Empty in a frame that was just extracted.
+    /// Rows whose blended surfaces are not in the raster, rising (blended_layer.h); set by the
+    /// caller, which draws these surfaces over the raster. Empty in a newly extracted frame.
     std::vector<uint32_t> layerRows;
     std::vector<shader::LightRow> lights;
     std::vector<ecs::Entity> lightEntities; ///< one per light: its entity

@@ -18,7 +18,8 @@ namespace {
 
 using math::dmat4;
 
-/// Rows that may count as moving ones without being written to, beside an eighth of all.
+/// Maximum number of rows that count as moving without being written to, in addition to an eighth
+/// of all rows.
 constexpr size_t kMaxQuiet = 64;
 
 uint64_t takeRevision() {
@@ -42,7 +43,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
 ) {
     SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
     SHUTTER_TRY(mMotionCheck.check(world.registry));
-    // Rows of another's making stand behind our own.
+    // Rows appended by others follow our own.
     mFrame.entities.resize(mRows.size());
     mFrame.entityMeshes.resize(mRows.size());
     mFrame.entityHandles.resize(mRows.size());
@@ -126,7 +127,7 @@ void FrameExtractor::clear() {
 }
 
 bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
-    // Under a moving camera, a blur scale of its own gives a static entity motion.
+    // Under a moving camera, an entity's blur scale gives a static entity motion.
     return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity) ||
            scene::findBlurScale(frame.world, entity) != 1.0 ||
            scene::mayComeOrGo(frame.world, entity, frame.request.exposure.frame().open) ||
@@ -265,7 +266,7 @@ bool FrameExtractor::refreshRow(const Frame& frame, uint32_t index) {
     row.evolves = evolves(frame, entity);
     row.written = true;
     if (!row.moving) {
-        // Whoever is written to once is likely to be again.
+        // Entities written to once tend to be written to every frame.
         row.moving = true;
         mJoining.push_back(index);
     }

@@ -16,11 +16,11 @@
 
 namespace shutter::extract {
 
-/// Owns a frame and brings it up to date. Rows are placed anew if something may move or deform
-/// them, if their or their ancestors' components may have changed (ecs::Registry::changesSince),
-/// or, all of them, if the camera, its lens, the size or the jitter is another than before. They
-/// are listed anew when entities come or go, are hidden or shown, change parents or meshes, can or
-/// cannot be drawn as before, or when too many changed.
+/// Owns a frame and updates it. A row is recomputed if the entity may move or deform, or if its or
+/// its ancestors' components may have changed (ecs::Registry::changesSince); all rows are, if the
+/// camera, its lens, the size or the jitter changed. The list of rows is rebuilt when entities are
+/// created, destroyed, hidden or shown, change parents or meshes, become drawable or undrawable, or
+/// when too many changed.
 class FrameExtractor {
   public:
     /// The frame equals extractFrame()'s, except that rows that were written to still count as
@@ -36,12 +36,12 @@ class FrameExtractor {
     [[nodiscard]] const FrameView& view() const;
 
   private:
-    /// Beside a row of the entity table.
+    /// Data per row of the entity table.
     struct Row {
         math::dmat4 worldFromObject{1.0}; ///< unless `evolves`: at all times
         uint32_t deformed = 0;            ///< its place in ExtractedFrame::deformed, or kNone
         float distance = 0.0f;            ///< as PlacedEntity's
-        bool evolves = false;             ///< it has a pose of its own at each instant
+        bool evolves = false;             ///< its pose differs between the instants
         bool moving = false;              ///< in ExtractedFrame::movingRows, or joins them
         bool written = false;             ///< to, since the frame before
         bool visible = false;             ///< in the picture
@@ -70,16 +70,16 @@ class FrameExtractor {
         bool evolves = false;
     };
 
-    /// In mRowOfEntity; what is below them is a row.
+    /// In mRowOfEntity; smaller values are rows.
     static constexpr uint32_t kNone = 0xFFFFFFFFu;
     static constexpr uint32_t kLatent = 0xFFFFFFFEu;
 
-    // Listing the rows anew.
+    // Rebuilds the list of rows.
     core::Status rebuild(const Frame& frame);
     void clear();
     void list(const Frame& frame, ecs::Entity entity, uint32_t mesh);
 
-    // Bringing them up to date; where that returns false, they have to be listed anew.
+    // Updates the rows. False: the list has to be rebuilt.
     bool refresh(const Frame& frame, const WorldChanges& changes);
     bool refreshWritten(const Frame& frame, const WorldChanges& changes);
     bool refreshRow(const Frame& frame, uint32_t index);
@@ -119,7 +119,7 @@ class FrameExtractor {
     uint32_t mFirstMovingMotion = 0; ///< in the table of motions
     uint32_t mMovesInView = 0;       ///< rows
     bool mViewMirrors = false;       ///< FrameView::mirrors()
-    bool mListed = false;            ///< false: the rows have to be listed anew
+    bool mListed = false;            ///< false: the list of rows has to be rebuilt
 };
 
 } // namespace shutter::extract

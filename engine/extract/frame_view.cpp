@@ -204,7 +204,7 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mMirrors = half.x * half.y < 0.0;
     mConstants.lodBias = mConstants.staticLodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
-    // A motion that ends where it began is one too: the raster instant tells.
+    // Motion that ends where it began is detected at the raster instant.
     const math::mat4 unmoved = clipFromEyeAt(1);
     mMoves = mConstants.clipFromEyeOpen != unmoved || mConstants.clipFromEyeClose != unmoved ||
              mEye[0] != mEye[1] || mEye[2] != mEye[1];

@@ -42,8 +42,8 @@ struct CameraPose {
     math::dmat4 clipFromView{1.0};
 };
 
-/// The camera as ViewRequest::lensPlace has it: at a place of its lens, parallel to the axis, and
-/// sheared so that what is in focus stays where it is.
+/// Returns the camera at ViewRequest::lensPlace: moved to a point of its lens, parallel to the
+/// axis, with a sheared projection that leaves the focus plane in place.
 [[nodiscard]] CameraPose placeCamera(
     const scene::ExposureMotion& motion,
     const scene::Camera& camera,

@@ -69,7 +69,7 @@ double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bou
     const math::Bounds placed = math::transformBounds(matrix, bounds);
     const double size = glm::length(placed.max - placed.min);
     const double share = size / std::max(glm::length(placed.centre()), 1.0e-9);
-    return std::isfinite(share) ? share : 0.0; // sorting by what is no number has no meaning
+    return std::isfinite(share) ? share : 0.0; // NaN has no order
 }
 
 /// A row with the mask that it had is as it was.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Instance masks by which a ray leaves out one entity of its own choice. Each mask has as many bits
-// as the others, so that none lies within another (Sperner 1928): a ray with all bits but one
-// entity's passes that entity and meets every other, at no cost in the traversal.
+// Instance masks that let a ray exclude one chosen entity. Each mask has as many bits as the
+// others, so that none lies within another (Sperner 1928): a ray with all bits but one entity's
+// misses that entity and hits every other, at no cost in the traversal.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -17,9 +17,9 @@ namespace shutter::extract {
 /// What entities have that no ray leaves out by its mask: as many bits as the others.
 inline constexpr uint32_t kSharedInstanceMask = 0x70u;
 
-/// Gives masks of their own (EntityRow::instanceMask) to entities that move in the picture, which
-/// are those a ray may have to pass: to the apparently largest where there are more entities than
-/// masks. The others get 0.
+/// Assigns masks (EntityRow::instanceMask) to entities that move in the picture, since rays may
+/// have to exclude them; to the apparently largest if there are more entities than masks. The
+/// others get 0.
 void assignInstanceMasks(ExtractedFrame& frame, const SceneLayout& layout);
 
 /// Solid bits of the entity's instance.

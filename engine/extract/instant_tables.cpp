@@ -137,7 +137,7 @@ class Builder {
         });
     }
 
-    /// What it takes to draw where an entity that deforms goes.
+    /// Makes the data for drawing the motion of a deforming entity.
     /// \param pose index of its pose when the layer was drawn
     ShapeWay makeWay(
         uint32_t row,
@@ -281,8 +281,8 @@ class Builder {
                mMotion.mayObjectMove(entity);
     }
 
-    /// A raster that is not the frame's own.
-    /// \param isUnknown (ecs::Entity) -> bool: where it was does not say where it is
+    /// Adds a raster other than the frame's own.
+    /// \param isUnknown (ecs::Entity) -> bool: its former place does not imply the present one
     template <class IsUnknown>
     LayerTables describeOther(
         const RasterRecord& other,

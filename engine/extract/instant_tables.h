@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the surfaces that a raster image holds are seen at other instants of the exposure, on the
-// CPU: of this frame's rasters and of the last one's. Exact for whatever moves rigidly, along any
-// path and before any camera; of what deforms, what it takes to draw where it goes.
+// CPU: of this frame's rasters and of the last one's. Exact for rigid motion along any path and for
+// any camera; for deforming entities it holds the data for drawing their motion.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -18,7 +18,7 @@ namespace shutter::extract {
 
 struct InstantTables : math::InstantLayers {
     RasterRecord record; ///< of this frame's raster, for the frame after
-    // What deforms (shader::kDeformedMover), by layer.
+    // Deforming entities (shader::kDeformedMover), by layer.
     std::vector<ShapeWay> rasterWays;
     std::vector<ShapeWay> secondWays;
     std::vector<ShapeWay> lastWays;
@@ -34,15 +34,16 @@ struct InstantFrame {
     math::dvec2 jitterPx{0.0}; ///< of its picture
 };
 
-/// Instants are the middles of equal shares of the light, by the shutter's response.
+/// Computes the tables. Instants are the middles of equal shares of the light, by the shutter's
+/// response.
 /// \param view its jitter is that of the colours that the layers hold: none, where an effect has
 /// taken the raster's out of them
 /// \param motion of the view's exposure
 /// \param instantCount above 0; with ViewRequest::usesLens spreadLensPairs() has as many pairs, in
 /// that order
-/// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
-/// same camera, in the same size and without a cut in between; of what has appeared, was teleported
-/// or has another mesh, nothing counts
+/// \param last of the frame drawn before, or null. used only if that was one frame ago, by the same
+/// camera, in the same size and without a cut in between, and not for entities that appeared, were
+/// teleported or changed their mesh
 /// \param second drawn for the same view, or null
 [[nodiscard]] InstantTables computeInstantTables(
     const scene::World& world,

@@ -44,8 +44,8 @@ std::vector<shader::MotionKey> sampleKeys(const MatrixAt& matrixAt, uint32_t int
     return keys;
 }
 
-/// Looks between the keys: at the middle and the quarters of each interval and at its odd place,
-/// and never at fewer places than the probes.
+/// Compares between the keys: at the middle, the quarters and the odd place of each interval, and
+/// at no fewer places than the probes.
 bool follows(
     std::span<const shader::MotionKey> keys,
     const MatrixAt& matrixAt,
@@ -160,8 +160,8 @@ computeMotionKeys(const MatrixAt& matrixAt, const Bounds& bounds, const KeyToler
 std::optional<MotionKeys> computeCameraKeys(
     const MatrixAt& eyeFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
 ) {
-    // What it sees from the near plane: there its own displacement shows most, and its turning as
-    // much as anywhere.
+    // At the near plane the camera's translation has its largest effect on the picture, and its
+    // rotation the same as anywhere.
     const bool perspective = tolerance.pixelAtOne > 0.0;
     const dvec3 corner =
         perspective ? dvec3(halfExtents, 1.0) * tolerance.near : dvec3(halfExtents, tolerance.near);

@@ -16,17 +16,17 @@
 
 namespace shutter::extract {
 
-/// Most intervals between keys. A jump (step interpolation) is drawn out over one of them, 1/1024
-/// of the exposure; so is what changes faster than the keys can follow.
+/// Maximum number of intervals between keys. A jump (step interpolation) and any faster change are
+/// spread over one interval, 1/1024 of the exposure.
 inline constexpr uint32_t kMaxKeyIntervals = 1024;
 
-/// Deviations up to this share of a pixel are let be.
+/// Maximum error of the keys, in pixels.
 inline constexpr double kKeyTolerancePx = 1.0 / 64.0;
 
-/// Motion is looked at at both ends of so many intervals, and at an odd place of each.
+/// Number of intervals at whose ends, and at an odd place of each, motion is probed.
 inline constexpr uint32_t kProbeIntervals = 16;
-/// Share of an interval, next to no simple fraction (the golden section): there a motion shows
-/// whose period fits the other places.
+/// Share of an interval (the golden section); an irrational offset detects periodic motion that
+/// aliases with the other probes.
 inline constexpr double kOddPlace = 0.381966011250105;
 
 /// eyeFromObject at shutter time s in [0, 1].
@@ -46,14 +46,14 @@ struct KeyTolerance {
     double pixelAtOne = 0.0;             ///< width of a pixel per metre of distance (perspective)
     double pixelAnywhere = 0.0;          ///< width of a pixel at any distance (orthographic)
 
-    /// Metres, for something inside `swept` (eye space): kKeyTolerancePx where it is nearest to the
-    /// camera, yet not less than single precision can tell apart there.
+    /// Tolerance in metres for a point inside `swept` (eye space): kKeyTolerancePx at the point
+    /// nearest to the camera, but not below the resolution of single precision there.
     [[nodiscard]] double of(const math::Bounds& swept) const;
 };
 
-/// Keys for what lies in `bounds` (object space, not empty). The motion is looked at at 33 instants
-/// at least, so that one that begins or ends within the exposure is seen; what comes and goes
-/// between two of them is not.
+/// Computes keys for points in `bounds` (object space, not empty). Motion is probed at 33 instants
+/// or more, so that motion that begins or ends within the exposure is found; changes between two
+/// probes are missed.
 /// \return nothing where the matrix is not finite at one of the instants
 [[nodiscard]] std::optional<MotionKeys> computeMotionKeys(
     const MatrixAt& matrixAt, const math::Bounds& bounds, const KeyTolerance& tolerance

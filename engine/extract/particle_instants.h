@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where particles need what lies behind and before them at instants of the exposure.
+// Where particles need the surfaces behind and in front of them at instants of the exposure.
 #pragma once
 
 #include "engine/extract/blended_layer.h"
@@ -10,9 +10,9 @@
 
 namespace shutter::extract {
 
-/// The rectangle of the picture in which particles meet opaque surfaces that move in it, and the
-/// instants at which those are looked up. Nothing: the raster's depth hides the particles as well,
-/// or the method or the memory allows no better.
+/// Returns the rectangle of the picture in which particles overlap moving opaque surfaces, and the
+/// instants at which those are looked up. Nothing: the raster's depth suffices, or the method or
+/// the memory does not allow the lookup.
 /// \param particles of an exposure
 [[nodiscard]] std::optional<shader::InstantSurfaces> planParticleInstants(
     const SweptSource& source, const ParticleTables& particles, const LayerLimits& limits

@@ -80,7 +80,7 @@ class BirthPlace {
         placed.place = dvec3(matrix * math::dvec4(birth.place, 1.0));
         placed.velocity = dmat3(matrix) * birth.velocity;
         if (!mAlways && mInherit != 0.0) {
-            // What is recorded is known up to the birth, not beyond.
+            // Recorded motion is known up to the birth, not beyond.
             constexpr double kStep = 1.0e-3;
             const dmat4 before = scene::worldFromEntity(mWorld, mEntity, birth.seconds - kStep);
             placed.velocity += (dvec3(matrix[3]) - dvec3(before[3])) * (mInherit / kStep);

@@ -35,7 +35,7 @@ struct ParticleTables {
     math::dvec2 leastPx{std::numeric_limits<double>::infinity()};
     math::dvec2 mostPx{-std::numeric_limits<double>::infinity()};
     bool hides = false; ///< some have opacity: they do not only add light
-    /// What they may add up to is more than the picture can hold.
+    /// Their sum may exceed the range of the picture.
     bool mayOverflow = false;
 
     [[nodiscard]] bool empty() const { return rows.empty(); }

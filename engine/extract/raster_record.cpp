@@ -44,7 +44,7 @@ RasterRecord makeRasterRecord(
     record.height = view.height;
     record.pictureFromWorld = pictureFromWorldAt(world, view, motion, s);
     record.unjitteredFromWorld = pictureFromWorldAt(world, unjittered, motion, s);
-    // Rows of others' making stand behind those that were drawn.
+    // Rows appended by others follow those that were drawn.
     const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
     record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
     record.worldFromObject = frame.worldFromObject;

@@ -78,8 +78,8 @@ struct RasterRecord {
     const RasterRecord& last
 );
 
-/// Whether `last` was drawn exactly one frame before and the view shows what it does. What a frame
-/// finds in the raster before it must not depend on which frames were drawn.
+/// Whether `last` was drawn exactly one frame before by the same view. A frame's result must not
+/// depend on which frames were drawn before.
 /// \param motion of the view's exposure
 [[nodiscard]] bool isOfFrameBefore(
     const scene::World& world,

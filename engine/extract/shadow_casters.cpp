@@ -18,10 +18,10 @@ using math::dvec4;
 /// Least extent of a caster's box, of its largest: planes have a form too.
 constexpr double kThinnest = 0.02;
 
-/// By how much a caster that is as thick as it is wide turns before a light until its outline is
-/// drawn anew, radians: where it is drawn for the middle of such a turn, what lies before or behind
-/// its middle is off by a sixteenth of its distance from there. What is flat may turn farther: in
-/// its plane the lookup is exact.
+/// Angle in radians by which a caster as thick as it is wide turns relative to a light before its
+/// outline is drawn again. Drawn for the middle of such a turn, points in front of or behind its
+/// centre are off by a sixteenth of their distance from it. Flat casters may turn farther: within
+/// their plane the lookup is exact.
 constexpr double kTurnOfPart = 0.125;
 constexpr double kMostTurnOfPart = 0.25; ///< however flat it is
 

@@ -14,13 +14,14 @@
 
 namespace shutter::extract {
 
-/// Most parts of the exposure that have layers of their own.
+/// Maximum number of parts of the exposure with separate layers.
 inline constexpr uint32_t kMaxCasterParts = 8;
 
 /// Something that moves and casts shadows.
 struct ShadowCaster {
     uint32_t row = 0;      ///< of the entity table
-    Sphere sphere;         ///< at the raster instant; of what deforms, around its other shapes too
+    Sphere sphere;         ///< at the raster instant; for deforming casters, around all their
+                           ///< shapes
     double seenSize = 0.0; ///< radius over distance from the camera
     /// The form whose unit ellipsoid is that of the caster's box, up to a factor
     /// (ShadowMover::shape).
@@ -59,9 +60,9 @@ using LightPlace = math::dvec4;
 /// The same as a caster sees it that moved.
 [[nodiscard]] LightPlace seeLight(const math::dmat4& rasterFromInstant, const LightPlace& light);
 
-/// Parts of the exposure by which the caster's outline has to be drawn anew, as it turns before one
-/// of the lights or deforms: 0, or 2 to kMaxCasterParts and at most as many as there are
-/// instants.
+/// Returns the number of parts of the exposure for which the caster's outline must be drawn
+/// separately, because it turns relative to a light or deforms: 0, or 2 to kMaxCasterParts and at
+/// most the number of instants.
 [[nodiscard]] uint32_t
 countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const LightPlace> lights);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The movers of a frame's shadows as shading reads them: what they are, where they are at each
-// instant, and where they are looked up. Pure.
+// Movers of a frame's shadows in the form that shading reads: their kind, their place at each
+// instant, and the mapping into their layers. Pure functions.
 #pragma once
 
 #include "engine/extract/shadow_casters.h"
@@ -27,7 +27,7 @@ struct PlacedLight {
     }
 };
 
-/// A caster with layers of its own.
+/// A caster with separate layers.
 struct PlannedMover {
     ShadowCaster caster;
     CasterPath path;

@@ -99,7 +99,7 @@ class Planner {
                 mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row)
             );
             mScene.add(box);
-            // Outside of the box: what surrounds the camera says nothing of how near it comes.
+            // Outside of the box: a box that surrounds the camera gives no bound for the distance.
             const double distance =
                 glm::length(glm::max(glm::max(box.min - eye(), eye() - box.max), 0.0));
             if (distance > 0.0)
@@ -259,7 +259,7 @@ class Planner {
         }
     }
 
-    /// As the mover sees the light: what turns then is the light.
+    /// In the mover's space it is the light that turns.
     void addLayer(
         const LightPlace& light,
         const PlannedMover& mover,

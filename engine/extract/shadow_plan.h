@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shadows that a frame calls for: which lights have maps and from where, which casters are in
-// them, and which movers have layers of their own. Pure: nothing here knows of the device.
+// Plans a frame's shadows: which lights have maps and from which views, which casters are in them,
+// and which movers have separate layers. Pure functions, independent of the device.
 #pragma once
 
 #include "engine/core/result.h"
@@ -15,8 +15,8 @@
 
 namespace shutter::extract {
 
-/// Most movers with layers of their own, by how large the camera sees them. Further ones are drawn
-/// into the lights' maps, which are then drawn anew in each frame, and their shadows stay sharp.
+/// Maximum number of movers with separate layers; the apparently largest come first. The others are
+/// drawn into the lights' maps, which are then redrawn each frame, and their shadows stay sharp.
 inline constexpr uint32_t kMaxShadowMovers = 32;
 /// Most layers of the raster instant, of all lights together.
 inline constexpr uint32_t kMaxShadowLayers = 64;
@@ -24,7 +24,7 @@ inline constexpr uint32_t kMaxShadowLayers = 64;
 /// together.
 inline constexpr uint32_t kMaxPartLayers = 64;
 
-/// A map and what is in it.
+/// A map and its casters.
 struct PlannedMap {
     LightView view;
     uint32_t sizePx = 0;
@@ -36,7 +36,7 @@ struct PlannedMap {
 
 struct ShadowPlan {
     core::Decision shadows;           ///< whether any light casts shadows in this frame
-    core::Decision blur;              ///< whether shadows of what moves are means over the exposure
+    core::Decision blur;              ///< whether shadows of movers are averaged over the exposure
     std::vector<PlannedMap> maps;     ///< those of lights, then movers' layers
     uint32_t lightMapCount = 0;       ///< of `maps`: those of lights
     std::vector<uint32_t> mapCasters; ///< rows of the entity table

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where receivers are looked up in the layers of a mover, for a light that is far away: affine
-// maps, which over a few instants change linearly, so that a shader works them out once. Pure.
+// Mapping of receivers into the layers of a mover, for a directional light: affine maps that change
+// linearly over a few instants, so that a shader computes them once. Pure functions.
 #pragma once
 
 #include "engine/extract/shadow_casters.h"
@@ -26,9 +26,9 @@ struct MoverLayer {
     uint32_t firstTexel = 0;
 };
 
-/// Takes points of the world to where they are looked up in a layer that was drawn along another
-/// way to the light, all as the mover sees it: x and y in texels, and depth. Along the ray to the
-/// light only the depth changes. \param toLight unit
+/// Maps world points to texels x and y and to depth in a layer that was drawn for another direction
+/// to the light, in the mover's space. Along the ray to the light only the depth changes. \param
+/// toLight unit
 [[nodiscard]] math::dmat4 mapToLayer(
     const ShadowCaster& caster,
     const math::dmat4& rasterFromInstant,

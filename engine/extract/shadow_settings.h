@@ -9,8 +9,8 @@ namespace shutter::extract {
 
 enum class ShadowMode : uint8_t {
     None,    ///< lights shine through everything
-    Sharp,   ///< what moves casts its shadow as at the raster instant
-    Blurred, ///< what moves casts it over the exposure
+    Sharp,   ///< movers cast the shadow of the raster instant
+    Blurred, ///< movers cast the shadow of the whole exposure
 };
 
 struct ShadowSettings {

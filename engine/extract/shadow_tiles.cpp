@@ -16,7 +16,7 @@ using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 
-/// Left around a box for what is rounded in the shader's single precision.
+/// Margin around a box for rounding errors of the shader's single precision.
 constexpr double kMarginPx = 1.0;
 
 /// How far along `way` a sphere may go before it has left a box.

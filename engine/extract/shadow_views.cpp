@@ -76,7 +76,7 @@ SceneInLight lookFromLight(const dvec3& toLight, const math::Bounds& scene) {
     SceneInLight seen;
     seen.axes = makeLightAxes(toLight);
     seen.box = math::transformBounds(dmat4(seen.axes), scene);
-    // Rounded outwards, so that what moves about in the scene does not move all of its maps' depth.
+    // Rounded outwards, so that movers in the scene do not change the depth range of all maps.
     const double extent = std::max(seen.box.max.z - seen.box.min.z, 1.0e-6);
     const double grid = roundUp(extent, 1.0) / 8.0;
     seen.farDepth = (std::floor(seen.box.min.z / grid) - 0.5) * grid;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where what deforms in a raster is seen in the course of the exposure: what the device needs to
-// draw it, beside the shapes.
+// Motion of deforming entities of a raster over the exposure: the data, besides the shapes, from
+// which the device draws it.
 #pragma once
 
 #include "engine/extract/deformed_entity.h"

@@ -17,7 +17,7 @@ using math::dvec4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 constexpr double kSweptMarginPx = 2.0;
-/// More movers than these are not looked at one by one.
+/// Above this count, movers are not tested one by one.
 constexpr size_t kMostSweptMovers = 64;
 /// Nearest depth at which a box has corners in the picture, metres.
 constexpr double kLeastBoxDepth = 1.0e-4;

@@ -23,13 +23,13 @@ struct SweptBox {
     double farthest = -std::numeric_limits<double>::infinity();
     double wayPx = 0.0; ///< longest, of a corner; infinity: not known
 
-    /// Takes in the whole picture.
+    /// Grows to the whole picture.
     void spread();
 };
 
 [[nodiscard]] bool overlap(const SweptBox& a, const SweptBox& b);
 
-/// What boxes are swept in. What it refers to must outlive it.
+/// The scene whose boxes are swept. Referenced objects must outlive it.
 struct SweptSource {
     const scene::World& world;
     const SceneLayout& layout;
@@ -58,11 +58,11 @@ class SweptScene : public SweptSource {
     bool cameraMoves = false;
 
   private:
-    /// Times at which boxes are looked at; what turns bulges out between them by less than the
-    /// margin.
+    /// Number of times at which boxes are evaluated; between them, rotating boxes exceed the hull
+    /// by less than the margin.
     static constexpr size_t kTimes = 9;
 
-    /// \return false: there are more than are looked at
+    /// \return false: the limit is exceeded
     bool addBox(uint32_t row, std::vector<SweptBox>& boxes) const;
 
     std::array<double, kTimes> mTimes{};

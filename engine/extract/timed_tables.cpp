@@ -44,8 +44,8 @@ Box growBox(const Bounds& bounds) {
     return {math::vec3(bounds.min - margin), math::vec3(bounds.max + margin)};
 }
 
-/// Rays have times of their own: what appears or is hidden during the exposure they meet, or not,
-/// as a part of it shows it.
+/// Rays have individual times: an entity that appears or is hidden during the exposure is hit only
+/// at times at which it is visible.
 scene::ExposureInterval showEvents(const scene::ExposureInterval& exposure) {
     return exposure.open < exposure.close ? scene::takePart(exposure, exposure.open, exposure.close)
                                           : exposure;
@@ -129,7 +129,7 @@ class Builder {
         auto keys = computeCameraKeys(eyeFromView, half, mTolerance);
         if (keys)
             mTables.camera = std::move(*keys);
-        else // a camera that is nowhere for a while sees what it sees at the raster instant
+        else // a camera without a finite pose for a while uses that of the raster instant
             mTables.camera.keys = {makeKey(toEye(viewAt(mRequest.exposure.rasterTime)))};
         for (uint32_t i = 0; i <= kPathIntervals; ++i)
             mTolerance.cameraPath.push_back(
@@ -269,7 +269,8 @@ class Builder {
         return dark;
     }
 
-    /// Intervals after which the light is where linear interpolation says, to the tolerance.
+    /// Counts the intervals needed for linear interpolation of the light to stay within the
+    /// tolerance.
     uint32_t countLightIntervals(size_t index) const {
         if (!mMotion.mayMove(mFrame.lightEntities[index]))
             return 0;

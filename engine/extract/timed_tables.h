@@ -31,7 +31,7 @@ struct TimedDeformation {
 };
 
 struct TimedTables {
-    std::vector<MotionKeys> rows;         ///< beside ExtractedFrame::entities
+    std::vector<MotionKeys> rows;         ///< parallel to ExtractedFrame::entities
     std::vector<TimedDeformation> shapes; ///< of the rows whose mesh is deformed, in their order
     MotionKeys camera;     ///< eyeFromView, widened by the lens as TimedConstants::cameraKeys
     math::vec4 view{0.0f}; ///< TimedConstants::view
@@ -39,13 +39,13 @@ struct TimedTables {
     math::vec4 aperture{0.0f};            ///< TimedConstants::aperture
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
-    std::vector<uint32_t> moving; ///< rows that move and can be met, in spatial order
+    std::vector<uint32_t> moving; ///< rows that move and can be hit, in spatial order
     std::vector<Box> boxes;       ///< of `moving`: eye space, over the whole exposure, finite
 };
 
 /// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster
-/// instant but can at another (scaled to nothing for a while, say) gets a row of its own behind the
-/// others: no pixel of the raster image has its id, rays may meet it. Error: the world has more
+/// instant but can at another (scaled to nothing for a while, say) gets an extra row after the
+/// others: no pixel of the raster image has its id, but rays may hit it. Error: the world has more
 /// entities than the table can hold, or the shapes need more than kMaxDeformedBytes.
 [[nodiscard]] core::Result<TimedTables> computeTimedTables(
     const scene::World& world,

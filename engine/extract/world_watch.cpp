@@ -124,7 +124,7 @@ std::vector<uint32_t> Descendants::collect(std::span<const ecs::Entity> roots) {
     std::vector<uint32_t> visited;
     for (const ecs::Entity root : roots)
         visit(root.index, visited);
-    // What is appended is looked at in its turn: a deep hierarchy must not overflow the stack.
+    // Appended entries are visited in turn: a deep hierarchy must not overflow the stack.
     for (size_t i = 0; i < visited.size(); ++i) {
         if (visited[i] >= mFirstChild.size())
             continue;

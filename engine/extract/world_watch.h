@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What became of a world's entities since the last look, as extraction has to know it.
+// Tracks which entities of a world changed since the last extraction.
 #pragma once
 
 #include "engine/core/result.h"
@@ -17,19 +17,19 @@
 namespace shutter::extract {
 
 struct WorldChanges {
-    /// Entities came or went, changed their parents or came into sight, or more than is remembered.
+    /// Entities were created, destroyed, shown or moved to another parent, or a log overflowed.
     bool structure = false;
-    /// Unless `structure`: what tells where these are, or what moves them, may have changed. Holds
-    /// no descendants; may hold one more than once, and entities that are no longer alive.
+    /// Unless `structure`: entities whose placement or motion may have changed. Without their
+    /// descendants; may contain duplicates and entities that are no longer alive.
     std::vector<ecs::Entity> placed;
-    /// Likewise: which mesh they draw may have changed.
+    /// Likewise: entities whose mesh may have changed.
     std::vector<ecs::Entity> drawn;
 };
 
 /// One reader of a registry's logs of changes (change_log.h).
 class WorldWatch {
   public:
-    /// The first look at a registry says `structure`, unless the registry is empty.
+    /// The first call for a registry returns `structure`, unless the registry is empty.
     [[nodiscard]] WorldChanges look(const ecs::Registry& registry);
 
   private:
@@ -41,16 +41,17 @@ class WorldWatch {
     };
 
     Cursors<scene::PlacingComponents> mPlacing;
-    /// Any change of these concerns more than the entity itself.
+    /// A change of these affects more than the entity itself.
     Cursors<scene::ComponentList<scene::Parent, scene::Hidden>> mHierarchy;
-    /// These are there or not; with one more or less, other rows are drawn, or in another way.
+    /// Only the presence of these matters: adding or removing one changes which rows are drawn, or
+    /// how.
     Cursors<scene::ComponentList<scene::Skinned, scene::MorphWeights, scene::VertexWaves>>
         mPresence;
     ecs::ChangeCursor mDrawn;
 };
 
-/// Checks paths, lenses, their keys and waves when they change, so that whatever a game writes into
-/// them is refused before anything samples them.
+/// Validates paths, lenses, their keys and waves when they change, so that invalid values are
+/// rejected before they are sampled.
 class MotionCheck {
   public:
     /// Error: names the entity whose path, lens or waves are not valid (scene::validatePath,
@@ -76,7 +77,7 @@ class Descendants {
 
     [[nodiscard]] bool isBuilt() const { return mBuilt; }
 
-    /// Indices of `roots` and of all that hangs on them, each once.
+    /// Returns the indices of `roots` and all their descendants, each once.
     [[nodiscard]] std::vector<uint32_t> collect(std::span<const ecs::Entity> roots);
 
   private:

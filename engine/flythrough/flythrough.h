@@ -39,7 +39,8 @@ struct FlythroughKey {
     /// F-number of the lens, [0.01, 1e9]; in all keys or none.
     std::optional<double> fStop;
     std::optional<FlythroughShutter> shutter;
-    /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp says between keys.
+    /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp defines it between
+    /// keys.
     std::optional<double> timeScale;
     bool cut = false; ///< the camera jumps here; until then it stays at the key before
 };
@@ -64,7 +65,7 @@ struct Flythrough {
 [[nodiscard]] core::Status
 writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough);
 
-/// One sentence that names the key and what is wrong with it.
+/// Error: one sentence that names the key and the fault.
 [[nodiscard]] core::Status validateFlythrough(const Flythrough& flythrough);
 
 // All functions below require a valid flythrough.

@@ -156,7 +156,7 @@ class ClipReader {
             return;
         }
         if (source.target_node < 0)
-            return; // to be ignored, says glTF 2.0, 3.11
+            return; // must be ignored (glTF 2.0, 3.11)
         if (isWeights)
             readWeights(source);
         else

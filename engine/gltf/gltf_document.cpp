@@ -85,7 +85,7 @@ GltfChunks splitGlb(std::span<const uint8_t> bytes) {
         } else if (type == kBinChunk) {
             chunks.bin = data;
             chunks.hasBin = true;
-        } // other chunk types are for extensions and are skipped, as the specification asks
+        } // other chunk types are for extensions and are skipped, as the specification requires
         offset += chunkBytes;
     }
     return chunks;

@@ -39,7 +39,7 @@ struct GltfChunks {
     bool hasBin = false;
 };
 
-/// Tells .gltf from .glb by content and checks the container. Throws GltfError.
+/// Distinguishes .gltf from .glb by content and validates the container. Throws GltfError.
 [[nodiscard]] GltfChunks splitGltf(std::span<const uint8_t> bytes);
 
 /// Parses text whose objects and arrays nest at most 256 deep. Throws GltfError.

@@ -30,7 +30,7 @@ std::optional<uint32_t> findSceneLight(const tinygltf::Model& model) {
     return index;
 }
 
-/// Members of arrays that checkGltfSchema does not look into.
+/// Members of arrays that checkGltfSchema does not validate.
 const tinygltf::Value&
 itemOf(const tinygltf::Value& array, size_t index, size_t count, const std::string& path) {
     if (!array.IsArray() || array.ArrayLen() < count)

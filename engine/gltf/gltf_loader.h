@@ -14,11 +14,11 @@ namespace shutter::gltf {
 
 struct LoadedScene {
     scene::World world;
-    /// One sentence for each thing that the file asks for and that is ignored or drawn differently.
+    /// One sentence for each feature of the file that is ignored or drawn differently.
     std::vector<std::string> warnings;
 };
 
-/// What a file may ask of the machine.
+/// Limits on the resources that a file may use.
 struct GltfLimits {
     io::Reach reach = io::Reach::Folder; ///< the files that its URIs may name
     /// Bytes of decoded vertices, skins and instances, and of decoded pictures. A small file may
@@ -27,9 +27,9 @@ struct GltfLimits {
     uint64_t maxImageBytes = uint64_t(4) << 30; ///< RGBA, 4 a pixel
 };
 
-/// Reads a glTF 2.0 file, .gltf or .glb, told apart by content. Anything that cannot be drawn as
-/// the file asks is an error that names the file and the field; engine/gltf/README.md lists what is
-/// supported. Nothing is half-loaded.
+/// Reads a glTF 2.0 file, .gltf or .glb, distinguished by content. Error: names the file and the
+/// field that is not supported; engine/gltf/README.md lists the supported features. No partial
+/// results.
 [[nodiscard]] core::Result<LoadedScene>
 loadGltf(const std::filesystem::path& path, const GltfLimits& limits = {});
 

@@ -208,7 +208,7 @@ class MaterialReader {
         material.alphaCutoff = clamped(mSource.alphaCutoff, 0.0, kMaxCutoff, "alphaCutoff");
     }
 
-    /// OMI_materials_blend (a draft): its mode stands before the material's own.
+    /// OMI_materials_blend (a draft): its mode overrides the material's own.
     void readBlend(scene::Material& material) {
         const std::string extension = "OMI_materials_blend";
         const auto* object = findExtension(mSource.extensions, extension);

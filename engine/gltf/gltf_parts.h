@@ -120,7 +120,7 @@ readParticles(GltfContext& context, size_t index);
 /// elements and 0 0 0 1 in the last row.
 [[nodiscard]] std::optional<math::Transform> decomposeMatrix(const math::dmat4& matrix);
 
-// --- What is added to the entities that loadNodes returns
+// --- Components added to the entities that loadNodes returns
 
 /// Adds scene::Skinned to entities that draw a mesh with a skin.
 void addSkins(GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities);
@@ -134,14 +134,14 @@ void addAutoFocus(
 
 /// Fills Assets::clips with the translation, rotation, scale and weights channels, adds Animated to
 /// the entities they drive, adds to their MorphWeights, and makes every clip active. Requires the
-/// meshes, which tell how many weights a node has.
+/// meshes, which determine the number of weights per node.
 void loadAnimations(
     GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
 );
 
-/// Expands EXT_mesh_gpu_instancing: gives each instance of a node an entity of its own below the
-/// node's, which draws what the node drew, with its own transform and the same morph weights. The
-/// node itself then draws nothing. Must be called last: nodes must have all their components.
+/// Expands EXT_mesh_gpu_instancing: creates an entity for each instance of a node as a child of the
+/// node's entity, with the node's mesh and morph weights and the instance's transform. The node
+/// itself then draws nothing. Must be called last: nodes must have all their components.
 void expandInstances(
     GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
 );

@@ -23,7 +23,7 @@ enum class Kind {
     IndexMaps,  ///< array of such objects
     Whole,      ///< 0 .. 2^53
     Int,        ///< 0 .. 2^31 - 1
-    Number,     ///< finite (JSON has no other)
+    Number,     ///< finite (JSON has no other numbers)
     Numbers,    ///< array of `length` numbers; of any length where `length` is 0
     String,
     Choice, ///< string, one of the words in `target`, which '|' separates

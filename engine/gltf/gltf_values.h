@@ -90,7 +90,8 @@ template <class Vector>
 [[nodiscard]] const tinygltf::Value*
 findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
-/// `extras.name` of what is at `path`, or nullptr. Throws GltfError where it is not an object.
+/// Returns `extras.name` of the object at `path`, or nullptr. Throws GltfError if `extras` is not
+/// an object.
 [[nodiscard]] const tinygltf::Value*
 findExtra(const tinygltf::Value& extras, const std::string& name, const std::string& path);
 
@@ -102,7 +103,7 @@ void warnOfOthers(
     const std::string& path
 );
 
-// Members of extension objects, which checkGltfSchema does not look into. These functions return
+// Members of extension objects, which checkGltfSchema does not validate. These functions return
 // nothing for a missing member and throw GltfError, naming `path`.key, for one of the wrong type or
 // out of range.
 

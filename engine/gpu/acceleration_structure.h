@@ -26,7 +26,7 @@ struct TriangleGeometry {
 class AccelerationStructure {
   public:
     AccelerationStructure() = default;
-    /// In a buffer of its own.
+    /// Creates it in a dedicated buffer.
     AccelerationStructure(
         Device& device, std::string name, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes
     );
@@ -61,7 +61,7 @@ class AccelerationStructure {
 };
 
 /// Whether structures that will not change are copied to where they take no more memory than they
-/// need: about half of what their build asks for, says NVIDIA of its cards and AMD of its own.
+/// need: about half of the size for the build, according to NVIDIA and AMD.
 enum class Compaction : uint8_t { None, Done };
 
 /// One BLAS a mesh, in few buffers, built together and waited for: load time only. A mesh whose

@@ -31,7 +31,7 @@ class DescriptorArena {
     size_t mCurrent = 0;
 };
 
-/// Collects what is bound at 0, 1, 2, ... of one set, in that order, and writes it.
+/// Collects the bindings 0, 1, 2, ... of one set, in that order, and writes them.
 class BindingList {
   public:
     BindingList& sampled(VkImageView view, VkSampler sampler);
@@ -42,8 +42,8 @@ class BindingList {
 
     [[nodiscard]] size_t count() const { return mEntries.size(); }
 
-    /// Error: a storage image's format is not the one that the pipeline's shaders declare there.
-    /// Vulkan then leaves what is stored undefined.
+    /// Error: a storage image's format differs from the one that the pipeline's shaders declare,
+    /// which makes stored values undefined in Vulkan.
     [[nodiscard]] core::Status checkFormats(const Pipeline& pipeline) const;
 
     void write(const Device& device, VkDescriptorSet set) const;

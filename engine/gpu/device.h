@@ -40,12 +40,12 @@ struct DeviceOptions {
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
     PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
-    /// How many pipelines that nobody uses any more are kept for whoever wants the same
-    /// (kept_pipelines.h); 0: none. Scene layouts of pipelines (PipelineInterface) must then live
-    /// as long as the device, as those of textureLayout do.
+    /// Maximum number of unused pipelines that are cached for reuse (kept_pipelines.h); 0: none.
+    /// Scene layouts of pipelines (PipelineInterface) must then live as long as the device, as
+    /// those of textureLayout do.
     uint32_t keptPipelines = 0;
     /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
-    /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
+    /// lists are as long as their buffers; accesses through buffer addresses are never checked.
     std::optional<Bounds> bounds;
     /// Instance extensions of the window system.
     std::vector<std::string> surfaceExtensions;
@@ -65,7 +65,7 @@ struct SubmitSemaphores {
     VkSemaphore signal = VK_NULL_HANDLE; ///< signalled when the submission is done
 };
 
-/// A device that a host made, and that stays the host's: it must outlive what is made from it.
+/// A device created and owned by a host; it must outlive all objects made from it.
 struct HostDevice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
@@ -74,10 +74,11 @@ struct HostDevice {
     /// rayTracingPipelineTraceRaysIndirect is enabled (RayTier::Pipeline).
     bool tracesIndirect = false;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
-    /// The feature subgroupSizeControl is enabled: pipelines get the sizes that they ask for.
+    /// The feature subgroupSizeControl is enabled: pipelines get the subgroup sizes that they
+    /// request.
     bool controlsSubgroupSize = false;
-    /// Where pipelines are looked up and kept; null: in one that is not kept on disk. Other threads
-    /// may use it meanwhile, unless it was made to be synchronized by its users.
+    /// Where pipelines are looked up and kept; null: in an internal one that is not stored on disk.
+    /// Other threads may use it meanwhile, unless it was made to be synchronized by its users.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 
@@ -107,8 +108,8 @@ struct ShaderGroupLimits {
     uint32_t baseAlignment = 1;
 };
 
-/// What exists on a device: made and not yet destroyed, so what was retired and may still be in use
-/// counts as well.
+/// Counts of the objects on a device that are not yet destroyed, including retired ones that may
+/// still be in use.
 struct LivingObjects {
     uint64_t memoryBytes = 0;  ///< allocated
     uint32_t memoryBlocks = 0; ///< allocations
@@ -123,8 +124,8 @@ struct LivingObjects {
 /// A logical device with one queue, its timeline and its retired objects. Everything made from it
 /// must be gone before it is. Not thread-safe.
 ///
-/// One around a host's device has no queue: the host submits, and the timeline is what it says of
-/// it (handOver, markDone).
+/// One around a host's device has no queue: the host submits, and reports progress through handOver
+/// and markDone.
 class Device {
   public:
     [[nodiscard]] static core::Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
@@ -184,11 +185,11 @@ class Device {
 
     [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
 
-    /// As DeviceOptions says. Only pipelines may be made on other threads.
+    /// As set in DeviceOptions. Only pipelines may be made on other threads.
     [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
 
-    /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is
-    /// kept even where the program does not end well.
+    /// Writes the pipeline cache to disk, as the end of the device does: pipelines made so far are
+    /// preserved even if the program crashes later.
     void savePipelineCache() const;
 
     [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
@@ -218,8 +219,8 @@ class Device {
 
     [[nodiscard]] LivingObjects& living() { return mLiving; }
 
-    /// Blocks of device memory that were ever allocated: drivers may take tens of milliseconds over
-    /// one, so frames that look alike should leave this as it is.
+    /// Number of device memory allocations so far: drivers may take tens of milliseconds for one,
+    /// so similar frames should not change this.
     [[nodiscard]] uint64_t allocationCount() const { return mAllocationCount; }
 
     void countAllocation() { ++mAllocationCount; }
@@ -236,14 +237,14 @@ class Device {
 
     /// Adopted devices: counts work that was recorded for the host to submit. \return its value
     uint64_t handOver();
-    /// Adopted devices: the GPU is done with that work, or will never see it. Values may be told in
-    /// any order, and twice; one is complete once all before it are done, too.
+    /// Adopted devices: the GPU has finished that work, or it will never be submitted. Values may
+    /// be reported in any order, and twice; one is complete once all before it are done, too.
     void markDone(uint64_t value);
 
     /// Runs `destroy` once everything submitted so far (and the submission being recorded now) is
     /// done. Destructors of gpu objects use it, so they may die at any time.
     void retire(std::function<void()> destroy);
-    /// Destroys what is no longer in use.
+    /// Destroys retired objects that are no longer in use.
     void collect();
     /// Waits until the device is idle and destroys all that was retired. Not of a host's device
     /// (CHECKed).
@@ -257,7 +258,7 @@ class Device {
 
     core::Status adoptHost(const HostDevice& host);
     core::Status createInstance(const DeviceOptions& options);
-    /// Notes what is chosen in mInfo, and says what is passed over.
+    /// Stores the choice in mInfo and logs the rejected devices.
     core::Status choosePhysicalDevice(const DeviceOptions& options);
     void createLogicalDevice();
     void loadFunctions();
@@ -270,7 +271,7 @@ class Device {
     void loadPipelineCache();
 
     bool mIsAdopted = false;
-    std::set<uint64_t> mHandedOver; ///< adopted: values the host has not said to be done
+    std::set<uint64_t> mHandedOver; ///< adopted: values that the host has not reported as done
     VkInstance mInstance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
     VkSurfaceKHR mSurface = VK_NULL_HANDLE; ///< until it is taken

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device that somebody else made and whose queue somebody else submits to.
+// Adopts a device that a host created and to whose queue the host submits.
 #include "engine/core/check.h"
 #include "engine/gpu/device.h"
 
@@ -34,7 +34,7 @@ core::Status Device::adoptHost(const HostDevice& host) {
             "host device: rayTier is {}, which {} does not have", describe(host.rayTier), mInfo.name
         );
     mInfo.rayTier = host.rayTier;
-    // A feature of its own, which the host need not have enabled.
+    // A separate feature, which the host need not have enabled.
     mInfo.tracesIndirect = mInfo.tracesIndirect && host.tracesIndirect;
     mDevice = host.device;
     mHasDebugUtils = host.hasDebugUtils;

@@ -19,8 +19,8 @@ struct DeviceFeatures {
     DeviceFeatures(const DeviceFeatures&) = delete;
     DeviceFeatures& operator=(const DeviceFeatures&) = delete;
 
-    /// Sets what the engine needs without rays, as for vkCreateDevice. Features of rays are structs
-    /// of their own (device.cpp).
+    /// Enables the features that the engine needs without rays, for vkCreateDevice. Ray features
+    /// are in separate structs (device.cpp).
     void enableNeeded();
 
     /// For what vkGetPhysicalDeviceFeatures2 has filled in.

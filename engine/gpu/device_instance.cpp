@@ -49,7 +49,7 @@ bool hasLayer(const char* wanted) {
     return false;
 }
 
-/// \param layer whose extensions are asked for; null: the loader's and drivers' own
+/// \param layer whose extensions are queried; null: those of the loader and the drivers
 bool hasInstanceExtension(const char* wanted, const char* layer = nullptr) {
     uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);

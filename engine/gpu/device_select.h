@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which devices there are, what each can do, and which one a name or the tiers choose.
+// Lists devices and their features, and selects one by name or by tier.
 #pragma once
 
 #include "engine/core/result.h"
@@ -22,7 +22,7 @@ enum class RayTier : uint8_t {
 
 struct DeviceInfo {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
-    std::string name;   ///< as the driver says it
+    std::string name;   ///< as reported by the driver
     std::string driver; ///< driver's name and version in words
     std::string kind;   ///< "discrete", "integrated", "virtual", "software", "other"
     uint32_t apiVersion = 0;
@@ -38,8 +38,8 @@ struct DeviceInfo {
     bool hasRobustness2 = false; ///< accesses past the end of a buffer or image can read as 0
 };
 
-/// Lets an instance list drivers that bring Vulkan to another interface, such as MoltenVK: loaders
-/// that know of the difference hide them otherwise.
+/// Makes an instance list portability drivers such as MoltenVK, which newer loaders hide by
+/// default.
 void listPortableDrivers(VkInstanceCreateFlags& flags, std::vector<const char*>& extensions);
 
 /// Whether accesses past the end of what a pass binds are caught: loads give 0, stores do nothing.

@@ -25,7 +25,7 @@ uint64_t countTicks(uint64_t begin, uint64_t end, uint32_t validBits) {
     return (end - begin) & (UINT64_MAX >> (64 - validBits));
 }
 
-// Delegates, so that what it has made goes where it fails.
+// Delegates, so that members are destroyed if it throws.
 Frame::Frame(Device& device) : Frame(device, ForHost{}) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();

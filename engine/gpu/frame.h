@@ -14,8 +14,8 @@
 
 namespace shutter::gpu {
 
-/// Most frames that the CPU may be ahead of the GPU; what the CPU reads back or writes for a frame
-/// exists as often. A frame's slot, below this, says which is its own.
+/// Maximum number of frames that the CPU may be ahead of the GPU; buffers that the CPU reads back
+/// or writes per frame exist as often. A frame's slot, below this number, selects its buffer.
 inline constexpr uint32_t kMaxFramesInFlight = 3;
 
 /// Ticks from one timestamp to a later one of a counter that has wrapped once at most between them:
@@ -34,7 +34,7 @@ struct PassTime {
 class Frame {
   public:
     explicit Frame(Device& device);
-    /// One for command buffers of somebody else (beginIn), who submits them as well.
+    /// Makes a frame for command buffers of a host (beginIn), which also submits them.
     /// \param timestampBits that count of the queue's timestamps; 0: spans are labels alone, and
     /// take no times of the GPU
     [[nodiscard]] static std::unique_ptr<Frame>
@@ -62,23 +62,23 @@ class Frame {
     void beginSpan(const std::string& name);
     void endSpan();
 
-    /// Waits until the GPU is done with this frame's last use and starts recording. What is
-    /// recorded starts when all that was submitted before is done: frames in flight overlap with
-    /// the CPU, not with one another, and may share what only the GPU writes.
+    /// Waits until the GPU has finished this frame's last use and starts recording. The commands
+    /// start when all earlier submissions are complete: frames in flight overlap with the CPU, not
+    /// with one another, and may share resources that only the GPU writes.
     void begin();
     /// One for a host: starts recording into `commands`, which are being recorded. The GPU must be
     /// done with this frame's last use.
     void beginIn(VkCommandBuffer commands);
-    /// What is recorded from here on is a batch of its own, which alone waits for the semaphore of
-    /// the submission. Once a frame; not between beginSpan() and endSpan(), nor while rendering,
-    /// and commands() is another command buffer afterwards.
+    /// Starts a second batch, which alone waits for the semaphore of the submission. At most once
+    /// per frame; not between beginSpan() and endSpan() nor while rendering. Afterwards commands()
+    /// returns another command buffer.
     void startBatch();
     /// Ends recording and submits.
     void submit(const SubmitSemaphores& semaphores = {});
     /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
     [[nodiscard]] std::vector<PassTime> waitForTimes();
-    /// One for a host: the same without waiting. The GPU must have run what was recorded; empty: it
-    /// has not, or no times are taken.
+    /// For a host's frames: the same without waiting. Empty if the GPU has not run the commands
+    /// yet, or no times are measured.
     [[nodiscard]] std::vector<PassTime> findTimes() const;
     /// Waits for this frame's submission.
     void wait();
@@ -96,7 +96,7 @@ class Frame {
     // Null for a host.
     VkCommandPool mPool = VK_NULL_HANDLE;
     VkCommandBuffer mCommands = VK_NULL_HANDLE; ///< that is being recorded
-    std::array<VkCommandBuffer, 2> mBuffers{};  ///< one a batch
+    std::array<VkCommandBuffer, 2> mBuffers{};  ///< one per batch
     size_t mBatches = 1;
     VkQueryPool mQueries = VK_NULL_HANDLE; ///< null: no times are taken
     uint32_t mTimestampBits = 0;

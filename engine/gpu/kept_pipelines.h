@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pipelines that nobody uses any more, kept for whoever wants the same. Drivers keep compiled code
-// in a cache, but some, lavapipe for one, translate the whole shader anew before they look it up:
-// 80 ms for a large one. A program that makes the same effect many times, as tests and benchmarks
-// do, spends most of its time there.
+// Cache of unused pipelines for reuse. Drivers cache compiled code, but some, such as lavapipe,
+// translate the whole shader before they look it up: 80 ms for a large one. Programs that make the
+// same effect many times, such as tests and benchmarks, would spend most of their time there.
 #pragma once
 
 #include "engine/gpu/vulkan.h"
@@ -25,7 +24,7 @@ struct PipelineObjects {
     bool operator==(const PipelineObjects&) const = default;
 };
 
-/// Calls nothing of Vulkan: whoever owns it destroys what it hands out. Thread-safe, since
+/// Makes no Vulkan calls: the owner destroys the pipelines that it returns. Thread-safe, since
 /// pipelines may be made on several threads.
 class KeptPipelines {
   public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Buffers and images with memory of their own. Few and large by design: meshes share one buffer,
+// Buffers and images with dedicated memory. Few and large by design: meshes share one buffer,
 // transient images share the render graph's memory.
 #pragma once
 
@@ -37,8 +37,8 @@ class Buffer {
 
     [[nodiscard]] VkDeviceAddress address() const { return mAddress; }
 
-    /// Null for MemoryUse::Device. For reading: shows what the GPU had written when this is called
-    /// (after a barrier to the host and a wait), so it is called anew after each wait.
+    /// Null for MemoryUse::Device. For reading: shows the GPU's writes as of this call (after a
+    /// barrier to the host and a wait), so call it again after each wait.
     [[nodiscard]] const void* mapped() const;
 
     [[nodiscard]] explicit operator bool() const { return mBuffer != VK_NULL_HANDLE; }
@@ -86,17 +86,18 @@ struct ImageDesc {
 [[nodiscard]] std::string nameFormat(VkFormat format);
 [[nodiscard]] VkImageAspectFlags aspectOf(VkFormat format);
 
-/// A 2D image and its view. Owns its memory unless it was placed into somebody else's, and the
+/// A 2D image and its view. Owns its memory unless it was bound to memory of another owner, and the
 /// image unless it was adopted.
 class Image {
   public:
     Image() = default;
-    /// With memory of its own.
+    /// Creates it with dedicated memory.
     Image(Device& device, std::string name, const ImageDesc& desc);
-    /// Without memory: ask requirements(), then bind().
+    /// Creates it without memory: query requirements(), then bind().
     [[nodiscard]] static Image
     createUnbound(Device& device, std::string name, const ImageDesc& desc);
-    /// Somebody else's image, which must outlive this and its last use; only the view is its own.
+    /// Wraps an image of another owner, which must outlive this object and its last use; only the
+    /// view is owned.
     [[nodiscard]] static Image
     adopt(Device& device, std::string name, VkImage image, const ImageDesc& desc);
     ~Image();
@@ -124,7 +125,7 @@ class Image {
     ImageDesc mDesc;
     VkImage mImage = VK_NULL_HANDLE;
     VkImageView mView = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE; ///< null: placed into somebody else's
+    VkDeviceMemory mMemory = VK_NULL_HANDLE; ///< null: bound to memory of another owner
     VkDeviceSize mMemoryBytes = 0;
     bool mAdopted = false;
 };

@@ -29,12 +29,12 @@ struct BlockPlan {
         bool operator==(const Block&) const = default;
     };
 
-    std::vector<Place> places; ///< one a thing, in order
+    std::vector<Place> places; ///< one per item, in order
     std::vector<Block> blocks;
 };
 
-/// One after another, each at its alignment; a new block where the last would grow beyond
-/// kBlockBytes or no memory type would take all in it. What needs more has a block of its own.
+/// Places items in sequence, each at its alignment; starts a new block where the last would exceed
+/// kBlockBytes or where no memory type suits all items in it. Larger items get a block each.
 [[nodiscard]] BlockPlan planBlocks(std::span<const VkMemoryRequirements> needs);
 
 } // namespace shutter::gpu

@@ -13,13 +13,13 @@ constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
 constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
-/// A property that a type had better have, or had better not.
+/// A property that is preferred or avoided.
 struct Wish {
     VkMemoryPropertyFlags property = 0;
     bool present = true;
 };
 
-/// What a use needs, and what it would like, the most important wish first.
+/// Required properties of a use, and preferred ones in order of importance.
 struct Needs {
     VkMemoryPropertyFlags required = 0;
     std::array<Wish, 3> wishes;
@@ -31,7 +31,7 @@ Needs needsOf(MemoryUse use) {
         // The window that the CPU sees may be small, and streams want it.
         return {0, {Wish{kLocal, true}, Wish{kVisible, false}, Wish{}}};
     case MemoryUse::Staging:
-        // Cached memory costs the transfer a look into the CPU's caches, and writes gain nothing.
+        // Cached memory makes transfers snoop the CPU's caches, and writes gain nothing.
         return {kVisible | kCoherent, {Wish{kLocal, false}, Wish{kCached, false}, Wish{}}};
     case MemoryUse::Stream:
         return {kVisible | kCoherent, {Wish{kLocal, true}, Wish{kCached, false}, Wish{}}};

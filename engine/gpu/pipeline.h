@@ -14,8 +14,8 @@
 
 namespace shutter::gpu {
 
-/// What a pipeline binds. Set 0 belongs to the pass and is bound anew each frame; set 1, where
-/// given, belongs to the scene (bindless textures) and is long-lived.
+/// The descriptor sets of a pipeline. Set 0 belongs to the pass and is written each frame; set 1,
+/// if given, belongs to the scene (bindless textures) and is long-lived.
 struct PipelineInterface {
     std::vector<VkDescriptorType> bindings; ///< set 0, binding i
     uint32_t pushConstantBytes = 0;         ///< [0, 128]
@@ -43,15 +43,15 @@ struct RayPipelineDesc {
     std::vector<uint32_t> specialization; ///< of all shaders
 };
 
-/// How what is drawn joins what its targets hold.
+/// How fragments are blended with the targets.
 enum class Blend : uint8_t {
     None,
     Over, ///< attachment 0 alone, by its alpha; the others are not written
-    /// All attachments, nearest first: premultiplied colours are added by the transmittance that
-    /// alpha holds so far, and alpha is multiplied by what the surface lets through.
+    /// All attachments, nearest first: premultiplied colours are added by the transmittance
+    /// accumulated in alpha, and alpha is multiplied by the surface's transmittance.
     Under,
     Premultiplied, ///< over, with premultiplied colours; what alpha was stays; attachment 0 alone
-    /// The same, and alpha is multiplied by what is let through.
+    /// The same, and alpha is multiplied by the transmittance.
     PremultipliedLayer,
     AlphaOnly, ///< alpha of all attachments is replaced, colours stay
 };
@@ -129,9 +129,9 @@ class Pipeline {
     std::vector<VkFormat> mStorageFormats; ///< by binding; the rest have none
 };
 
-/// A compute or ray-tracing pipeline that is made when it is first used or, on a device that makes
-/// pipelines ahead, from the start on a thread of its own. It is used by one thread, like
-/// everything else that is made from a device.
+/// A compute or ray-tracing pipeline that is created on first use or, on a device that makes
+/// pipelines ahead, on a background thread. Like all objects made from a device, it may be used by
+/// one thread only.
 class LazyPipeline {
   public:
     LazyPipeline(Device& device, const ComputePipelineDesc& desc);
@@ -141,7 +141,7 @@ class LazyPipeline {
     LazyPipeline(LazyPipeline&&) noexcept = default;
     LazyPipeline& operator=(LazyPipeline&&) = delete;
 
-    /// Starts to make it on a thread of its own, unless it is made or under way.
+    /// Starts to create it on a background thread, unless that is done or in progress.
     void prepare() const;
     /// Whether get() returns at once.
     [[nodiscard]] bool isReady() const;

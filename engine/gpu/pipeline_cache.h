@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The file that keeps a device's compiled pipelines from one run to the next. Drivers trust what
-// they are given back: a blob that a full disk, a crash or another program has changed may end the
-// process inside of them. So the blob has a checksum, and reaches only the driver that made it.
+// Stores a device's compiled pipelines between runs. Drivers trust the blob: one that was damaged
+// by a full disk, a crash or another program may crash the driver. So the blob has a checksum and
+// is only passed to the driver that made it.
 #pragma once
 
 #include "engine/core/result.h"
@@ -34,8 +34,8 @@ struct PipelineCacheOwner {
 [[nodiscard]] core::Result<std::optional<std::span<const uint8_t>>>
 unpackPipelineCache(std::span<const uint8_t> file, const PipelineCacheOwner& owner);
 
-/// The blob that `file` keeps; empty where there is none of use, with a warning where the file is
-/// damaged: what is compiled anew costs time alone.
+/// Returns the blob in `file`; empty if there is no usable one, with a warning if the file is
+/// damaged. The cost is only that pipelines are compiled again.
 [[nodiscard]] std::vector<uint8_t>
 readPipelineCache(const std::filesystem::path& file, const PipelineCacheOwner& owner);
 

@@ -10,7 +10,8 @@ namespace shutter::gpu {
 
 namespace {
 
-/// Bytes in which every list is preceded by its length, so that no two rows of parts look alike.
+/// Bytes in which every list is preceded by its length, so that different parts never give equal
+/// keys.
 class Key {
   public:
     explicit Key(char kind) : mBytes(1, kind) {}

@@ -10,7 +10,7 @@
 
 namespace shutter::gpu {
 
-/// Where the three groups' handles stand in a shader binding table.
+/// Offsets of the three groups' handles in a shader binding table.
 struct BindingTableLayout {
     VkDeviceSize stride = 0;               ///< of a handle, bytes
     std::array<VkDeviceSize, 3> offsets{}; ///< start, miss, hit; from an address that is aligned

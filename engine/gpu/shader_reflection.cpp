@@ -92,16 +92,16 @@ constexpr std::array kImageFormats = {
     VK_FORMAT_R64_SINT,
 };
 
-/// A type as far as descriptors tell types apart.
+/// A type, as far as it matters for descriptors.
 struct Type {
     uint32_t opcode = 0;
-    uint32_t element = 0;      ///< of arrays and pointers: what they hold or point to
+    uint32_t element = 0;      ///< of arrays and pointers: the element or pointee type
     uint32_t storageClass = 0; ///< of pointers
     bool isStorageImage = false;
     VkFormat format = VK_FORMAT_UNDEFINED; ///< of storage images
 };
 
-/// What the instructions of a module say about its variables, by result id.
+/// The variables of a module and their decorations, by result id.
 struct Module {
     std::map<uint32_t, Type> types;
     std::map<uint32_t, uint32_t> variables;      ///< pointer types

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a shader module says of itself. The words must be SPIR-V (CHECKed).
-// Source: SPIR-V 1.6, physical layout of a module, image formats, instructions.
+// Reflection of a shader module. The words must be SPIR-V (CHECKed). Source: SPIR-V 1.6, physical
+// layout of a module, image formats, instructions.
 #pragma once
 
 #include "engine/core/result.h"
@@ -41,15 +41,15 @@ struct ShaderBinding {
 /// What a module needs of the device that runs it, beyond Vulkan 1.0 without features.
 struct ShaderNeeds {
     std::set<uint32_t> capabilities; ///< SPIR-V's numbers, as declared
-    bool indexesTextures = false;    ///< arrays of textures, by what is not constant
+    bool indexesTextures = false;    ///< indexes arrays of textures by non-constant values
     bool terminates = false;         ///< has OpTerminateInvocation
     bool hasLocalSizeId = false;     ///< gives its workgroup's size by constants
 };
 
 [[nodiscard]] ShaderNeeds reflectNeeds(std::span<const uint32_t> spirv);
 
-/// Whether all that a shader names is bound by its pipeline's layout, where its stage sees it; a
-/// sentence that names what is not.
+/// Checks that the pipeline's layout has every binding of the shader, visible to its stage. Error:
+/// a sentence that names the missing binding.
 [[nodiscard]] core::Status
 checkInterface(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface);
 

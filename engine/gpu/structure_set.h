@@ -23,7 +23,7 @@ struct BlasDesc {
 };
 
 enum class BuildAction : uint8_t {
-    Keep,  ///< what was built last
+    Keep,  ///< the last build
     Refit, ///< vertices moved, nothing else: the tree keeps its form
     Build,
 };
@@ -36,14 +36,14 @@ class StructureSet {
     StructureSet& operator=(StructureSet&& other) noexcept;
 
     /// Makes room for bottom levels; record() builds them. Geometries without triangles or boxes
-    /// are fine. \param refits allow BuildAction::Refit \return true: as many as before of the same
-    /// sizes, what was built last is still there
+    /// are fine. \param refits allow BuildAction::Refit \return true: count and sizes are as
+    /// before, so the last builds are still valid
     bool prepareBlas(Device& device, std::vector<BlasDesc> levels, bool refits = false);
     /// Makes room for top levels of one instance each and writes the instances. The GPU must be
     /// done with the last ones.
     void prepareTlas(Device& device, std::span<const Instance> instances);
     /// Records the builds; the caller places barriers.
-    /// \param actions one a structure
+    /// \param actions one per structure
     void record(
         const Device& device, VkCommandBuffer commands, std::span<const BuildAction> actions
     ) const;

@@ -106,7 +106,7 @@ void Swapchain::releaseImages() {
 }
 
 bool Swapchain::resize(const SwapchainDesc& desc) {
-    // Images may still be on their way to the display, which no semaphore of ours tells.
+    // Images may still be queued for display, which none of our semaphores signals.
     mDevice.collectIdle();
     releaseImages();
     mWanted = desc;
@@ -117,7 +117,7 @@ bool Swapchain::resize(const SwapchainDesc& desc) {
         mState = SwapchainState::SurfaceLost;
         return false;
     }
-    // A window system that leaves the size to the program says so by all ones.
+    // All ones means that the program chooses the size.
     const bool fixed = surface->currentExtent.width != UINT32_MAX;
     const VkExtent2D wanted = fixed ? surface->currentExtent : VkExtent2D{desc.width, desc.height};
     mDesc.width =
@@ -184,7 +184,7 @@ bool Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
 }
 
 std::optional<SwapchainImage> Swapchain::acquire() {
-    // A window that just changed its size may tell its surface later, and not every driver says so.
+    // A surface may learn of a new window size later, and not every driver reports that.
     if (mWanted != mDesc)
         noteState(VK_SUBOPTIMAL_KHR);
     if (mImages.empty() || mState != SwapchainState::Fits)

@@ -26,21 +26,20 @@ struct SwapchainDesc {
 /// What the window system's answer means for a swapchain.
 enum class SwapchainState : uint8_t {
     Fits,
-    Outdated,    ///< to be made anew before the next image
+    Outdated,    ///< must be recreated before the next image
     SurfaceLost, ///< so is the surface
 };
 
 /// \param result of acquiring or presenting an image
 /// \param made size of the images
 /// \param surface size that the surface has now, all ones where the program chooses it. Drivers may
-/// call a swapchain suboptimal for reasons that making it anew does not end (its rotation, the way
-/// it is composed): only another size counts.
-/// Throws DeviceError for a result that is no answer of the window system's.
+/// report a swapchain as suboptimal for reasons that recreating it does not remove (rotation,
+/// composition): only a changed size counts. Throws DeviceError for unexpected results.
 [[nodiscard]] SwapchainState
 judgeSwapchain(VkResult result, const VkExtent2D& made, const VkExtent2D& surface);
 
-/// The format that pictures are shown in, of those that a surface takes: 8 bits a channel before
-/// 10, which is all that some displays of 30 bits list; never one that converts on writing.
+/// Selects the format for display among those of a surface: 8 bits per channel before 10, which is
+/// all that some 30-bit displays list; never an sRGB format, which converts on writing.
 [[nodiscard]] std::optional<VkSurfaceFormatKHR>
 chooseSurfaceFormat(std::span<const VkSurfaceFormatKHR> formats);
 
@@ -51,8 +50,8 @@ struct SwapchainImage {
     SubmitSemaphores semaphores;  ///< of the submission that draws on it
 };
 
-/// The images have 8 or 10 bits a channel, not converted on writing: who draws encodes for the
-/// display. They can be drawn on and copied from.
+/// The images have 8 or 10 bits per channel without conversion on writing: the drawing pass encodes
+/// for the display. They can be drawn on and copied from.
 class Swapchain {
   public:
     /// \param surface that the device was chosen for (Device::takeSurface); taken over, destroyed
@@ -64,15 +63,15 @@ class Swapchain {
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    /// Makes it anew for another size or mode; waits for the device. False where the window has no
-    /// area now: then nothing can be acquired until it has one.
+    /// Recreates it for another size or mode; waits for the device. False if the window has no
+    /// area: then nothing can be acquired until it has one.
     bool resize(const SwapchainDesc& desc);
     /// The same on another surface of the window, which is taken over: the former was lost.
     bool resize(const SwapchainDesc& desc, VkSurfaceKHR surface);
 
-    /// Nothing where the images no longer fit the window (state()), or there are none: resize()
-    /// first. Of what was drawn on images acquired before, the GPU must be done with all but the
-    /// last kMaxFramesInFlight - 1.
+    /// Nothing if the images no longer fit the window (state()), or there are none: call resize()
+    /// first. The GPU must have finished the draws to all earlier images but the last
+    /// kMaxFramesInFlight - 1.
     [[nodiscard]] std::optional<SwapchainImage> acquire();
 
     /// Shows an image once its submission's semaphore is signalled, and notes the state().
@@ -86,11 +85,11 @@ class Swapchain {
     /// As the window system answered last.
     [[nodiscard]] SwapchainState state() const { return mState; }
 
-    /// What resize() was asked for last. The surface may insist on another size, and that is no
-    /// reason to make the same images anew.
+    /// The last request to resize(). The surface may impose another size; that is no reason to
+    /// recreate the same images.
     [[nodiscard]] const SwapchainDesc& wanted() const { return mWanted; }
 
-    [[nodiscard]] const SwapchainDesc& desc() const { return mDesc; } ///< what was made
+    [[nodiscard]] const SwapchainDesc& desc() const { return mDesc; } ///< the actual properties
 
     [[nodiscard]] VkFormat format() const { return mFormat.format; }
 
@@ -116,7 +115,7 @@ class Swapchain {
     SwapchainState mState = SwapchainState::Fits;
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     std::vector<Image> mImages;
-    std::vector<VkSemaphore> mDrawn; ///< one an image: its submission is done
+    std::vector<VkSemaphore> mDrawn; ///< one per image: its submission is complete
     std::array<VkSemaphore, kMaxFramesInFlight> mAcquired{}; ///< used in turns
     size_t mNextAcquired = 0;
 };

@@ -204,7 +204,7 @@ class TextureStaging {
         }
     }
 
-    /// Copies what was added, and waits.
+    /// Copies the added data and waits.
     void flush() {
         runOnce(mDevice, [&](VkCommandBuffer commands) {
             for (const StagedRows& rows : mStaged)

@@ -27,7 +27,7 @@ constexpr const char* kSource = "package libvulkan1";
 #endif
 
 core::Status findAll() {
-    // Never closed: drivers and layers leave threads and handlers of their own.
+    // Never closed: drivers and layers may leave threads and handlers behind.
     const core::Result<void*> loader = core::openLibrary(kLoader);
     if (!loader)
         return core::makeError("there is no Vulkan: {} ({})", loader.error().message, kSource);

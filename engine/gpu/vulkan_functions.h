@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Vulkan's functions, found while the program runs: where Vulkan is missing, it can say so in a
-// sentence, where a program that is linked to the loader would not start.
+// Vulkan's functions, loaded at run time: without Vulkan, the program can report that in a
+// sentence, whereas a program linked to the loader would not start.
 //
 // Each is a pointer of the name that its prototype has, in the namespace of this project, where
-// unqualified names find it before the prototype. Only what is built in this tree sees the pointers
-// (SHUTTER_LOADS_VULKAN); a host includes the same headers and goes on with its own Vulkan.
+// unqualified names find it before the prototype. Only this tree is built with the pointers
+// (SHUTTER_LOADS_VULKAN); a host includes the same headers and uses its own Vulkan.
 #pragma once
 
 #include "engine/core/result.h"
@@ -128,8 +128,8 @@ SHUTTER_VULKAN_FUNCTIONS(SHUTTER_DECLARE)
 
 namespace shutter::gpu {
 
-/// Finds all of them; to be called before any other function of Vulkan. What was found once is
-/// kept. Error: the loader is missing, or too old.
+/// Loads all of them; must be called before any other Vulkan function. Later calls do nothing.
+/// Error: the loader is missing, or too old.
 [[nodiscard]] core::Status loadVulkan();
 
 } // namespace shutter::gpu

@@ -11,7 +11,7 @@
 
 namespace shutter::gpu_scene {
 
-/// What deforms the vertices of one geometry, as shader::DeformJob has it.
+/// The deformation data of one geometry, as in shader::DeformJob.
 struct DeformSource {
     math::uvec2 influences{0u};
     math::uvec2 deltas{0u};
@@ -32,7 +32,7 @@ class DeformSources {
   private:
     gpu::Buffer mInfluences;
     gpu::Buffer mDeltas;
-    std::vector<DeformSource> mSources; ///< one a geometry: all meshes' primitives in order
+    std::vector<DeformSource> mSources; ///< one per geometry: all meshes' primitives in order
 };
 
 } // namespace shutter::gpu_scene

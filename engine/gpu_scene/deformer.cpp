@@ -16,7 +16,7 @@ namespace shutter::gpu_scene {
 namespace {
 
 constexpr VkDeviceSize kTableAlignment = 256;
-/// Groups of a dispatch: as many rows as every device bears.
+/// Groups of a dispatch: rows are limited by the guaranteed minimum of maxComputeWorkGroupCount.
 constexpr uint64_t kMostGroups = uint64_t{65535} * shader::kDeformRow;
 
 gpu::ComputePipelineDesc

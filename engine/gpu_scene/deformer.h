@@ -14,8 +14,7 @@
 
 namespace shutter::gpu_scene {
 
-/// Poses on their way to the device. Those of one entity at several instants stand one behind the
-/// other.
+/// Poses for upload. Those of one entity at several instants are consecutive.
 class PoseTable {
   public:
     struct Place {
@@ -31,11 +30,11 @@ class PoseTable {
     /// \return where the pose is
     Place add(const scene::Deformation& pose);
 
-    /// Writes all poses; `buffer` grows where it is too small. The GPU must be done with what it
-    /// held.
+    /// Writes all poses; `buffer` grows if it is too small. The GPU must have finished with its
+    /// contents.
     void upload(gpu::Device& device, gpu::Buffer& buffer);
 
-    /// The job of one geometry, but for what it writes; upload() was called.
+    /// The job of one geometry, without its output; call upload() first.
     /// \param place of the first instant
     [[nodiscard]] shader::DeformJob
     makeJob(const GpuScene& scene, uint32_t geometry, const Place& place) const;
@@ -55,8 +54,8 @@ class DeformJobs {
     /// \param instantCount one behind the other, from the job's first
     void add(const shader::DeformJob& job, uint32_t instantCount);
 
-    /// Writes the jobs; `buffer` grows where it is too small. The GPU must be done with what it
-    /// held.
+    /// Writes the jobs; `buffer` grows if it is too small. The GPU must have finished with its
+    /// contents.
     void upload(gpu::Device& device, gpu::Buffer& buffer);
 
     /// upload() was called.

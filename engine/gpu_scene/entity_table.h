@@ -10,8 +10,8 @@
 
 namespace shutter::gpu_scene {
 
-/// One a frame in flight: the GPU must be done with the frame that it was updated for last. It
-/// knows which frame that was, and takes all rows of one that does not follow on it.
+/// One per frame in flight: the GPU must have finished the frame that it was last updated for. It
+/// stores that frame's revision, and writes all rows of a frame that does not follow it.
 class EntityTable {
   public:
     explicit EntityTable(gpu::Device& device) : mDevice(device) {}
@@ -29,7 +29,7 @@ class EntityTable {
     [[nodiscard]] VkDeviceAddress motions() const { return mMotions.address(); }
 
   private:
-    /// True when it had to be made anew: then it holds nothing.
+    /// True if it was recreated: then its contents are undefined.
     bool fit(gpu::Buffer& buffer, const char* name, VkDeviceSize bytes);
 
     gpu::Device& mDevice;

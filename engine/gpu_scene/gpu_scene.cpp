@@ -149,7 +149,7 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
     std::vector<shader::Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<shader::Geometry> rows;
-    // The default material stands behind the scene's own.
+    // The default material follows the scene's own.
     const auto defaultMaterial = static_cast<uint32_t>(assets.materials.size());
     for (const scene::Mesh& mesh : assets.meshes) {
         mLayout.firstGeometry.push_back(static_cast<uint32_t>(rows.size()));

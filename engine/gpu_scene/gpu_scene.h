@@ -17,7 +17,7 @@
 namespace shutter::gpu_scene {
 
 /// The assets of a scene on the device: one vertex and one index buffer, tables of geometries and
-/// materials, bindless textures, and, once asked for, a BLAS a mesh.
+/// materials, bindless textures, and, on request, a BLAS per mesh.
 class GpuScene {
   public:
     GpuScene(gpu::Device& device, const scene::Assets& assets);
@@ -33,7 +33,7 @@ class GpuScene {
     /// What geometryTable() holds.
     [[nodiscard]] std::span<const shader::Geometry> geometryRows() const { return mGeometryRows; }
 
-    /// What deforms the geometry.
+    /// The geometry's deformation data.
     [[nodiscard]] const DeformSource& deformSource(uint32_t geometry) const {
         return mDeformSources[geometry];
     }
@@ -91,7 +91,7 @@ class GpuScene {
     TextureTable mTextures;
     std::vector<gpu::AccelerationStructure> mBlas;
     std::vector<gpu::AccelerationStructure> mMeshScenes;
-    std::vector<uint32_t> mFirstVertex; ///< one a geometry
+    std::vector<uint32_t> mFirstVertex; ///< one per geometry
     bool mBlasBuilt = false;
 };
 

@@ -17,7 +17,7 @@ namespace shutter::gpu_scene {
 
 namespace {
 
-/// Descriptors of all kinds that a pass may bind beside the textures.
+/// Descriptors of all kinds that a pass may bind in addition to the textures.
 constexpr uint32_t kPassDescriptors = 16;
 
 VkSamplerAddressMode addressMode(scene::Wrap wrap) {
@@ -113,7 +113,7 @@ void TextureTable::addDirections(
     for (const scene::DirectionPicture& level : levels)
         texels.push_back(std::as_bytes(std::span(level.rgba)));
     gpu::uploadLevels(mDevice, mDirections.back(), texels);
-    // Round the horizon there is no border; beyond a pole lies what is beside it.
+    // Wrap around the horizon; clamp at the poles.
     scene::Texture around;
     around.wrapU = scene::Wrap::Repeat;
     around.wrapV = scene::Wrap::ClampToEdge;

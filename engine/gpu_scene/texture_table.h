@@ -12,8 +12,8 @@
 
 namespace shutter::gpu_scene {
 
-/// How many textures a device lets one shader see, beside those of a pass, and which of its limits
-/// says so.
+/// Maximum number of textures in one shader on a device, in addition to those of a pass, and the
+/// limit that determines it.
 struct TextureLimit {
     uint32_t count = 0;
     const char* name = "";

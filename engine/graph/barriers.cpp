@@ -12,7 +12,7 @@ struct Run {
     AccessScope scope;     ///< of all its uses together
     bool writes = false;
     bool isDisjoint = false;   ///< all its passes write, each other texels
-    bool needsContents = true; ///< of what was there before
+    bool needsContents = true; ///< earlier contents are needed
 };
 
 struct Half {
@@ -24,7 +24,7 @@ struct Half {
 struct State {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     Half lastWrite;
-    Half readers; ///< since the last write, and what they were shown
+    Half readers; ///< since the last write, and the stages it was made visible to
 };
 
 struct Edge {
@@ -77,7 +77,7 @@ bool contains(uint64_t all, uint64_t part) {
 Edge findEdge(const State& state, const Run& run) {
     Edge edge;
     edge.dst = {run.scope.stages, run.scope.reads | run.scope.writes};
-    // Contents nobody needs are dropped with the old layout.
+    // Unneeded contents are discarded with the old layout.
     edge.oldLayout = run.needsContents ? state.layout : VK_IMAGE_LAYOUT_UNDEFINED;
     const bool transition = run.scope.layout != state.layout;
     if (state.readers.stages == 0) {

@@ -43,7 +43,7 @@ struct Placement {
     uint32_t lastPass = 0;              ///< position in Plan::passes, inclusive
     VkImageUsageFlags imageUsage = 0;   ///< images: what the passes do with it
     VkBufferUsageFlags bufferUsage = 0; ///< buffers: the description's and what the passes do
-    VkDeviceSize bytes = 0;             ///< images: as the requirement function says
+    VkDeviceSize bytes = 0;             ///< images: as the requirement function returns
     VkDeviceSize alignment = 1;
     VkDeviceSize offset = 0; ///< images: in the one block of memory they share
 };
@@ -62,7 +62,7 @@ struct Plan {
     std::vector<Placement> buffers; ///< transient buffers that are used (never aliased)
     std::vector<CulledPass> culled;
     VkDeviceSize blockBytes = 0;     ///< memory the aliased images need together
-    VkDeviceSize unaliasedBytes = 0; ///< what they would need without aliasing
+    VkDeviceSize unaliasedBytes = 0; ///< total without aliasing
 };
 
 struct MemoryRequirement {
@@ -82,12 +82,12 @@ enum class DisjointWrites : uint8_t {
     Ordered,
 };
 
-/// Errors name the pass and the resource: a read of something nobody writes, a write to an old
+/// Errors name the pass and the resource: a read of something never written, a write to an old
 /// version, a cycle (such as an old version that is overwritten before it could be read), a handle
 /// of another graph, attachments of different size, an access that does not fit the pass's kind or
 /// the resource's (an image used as acceleration structure), a resource used twice by one pass in
 /// ways that clash, an output that a later pass overwrites.
-/// \param disjoint what is placed between passes that write disjoint parts of an image
+/// \param disjoint barriers between passes that write disjoint parts of an image
 [[nodiscard]] core::Result<Plan> compile(
     const Graph& graph,
     const RequirementFunction& requirement,
@@ -100,7 +100,7 @@ enum class DisjointWrites : uint8_t {
 isWantedAfter(const Graph& graph, const Plan& plan, uint32_t resource, uint32_t position);
 
 /// The plan as text for a person: passes in order with what each reads and writes, barriers with
-/// layouts, what was culled and why, images with size, format, lifetime and place in memory.
+/// layouts, culled passes and why, images with size, format, lifetime and place in memory.
 [[nodiscard]] std::string dump(const Graph& graph, const Plan& plan);
 
 } // namespace shutter::graph

@@ -59,15 +59,15 @@ struct Culling {
 /// an output or a kept pass needs.
 [[nodiscard]] Culling cull(const Graph& graph, const VersionTable& versions);
 
-/// The kept passes, each after what it needs and before what overwrites it; otherwise in declared
-/// order. Error: a cycle; names the passes on it.
+/// Orders the passes that were not culled: each after the passes it depends on and before those
+/// that overwrite its inputs; otherwise in declared order. Error: a cycle; names the passes on it.
 [[nodiscard]] core::Result<std::vector<uint32_t>>
 orderPasses(const Graph& graph, const VersionTable& versions, const std::vector<bool>& kept);
 
 // validate.cpp: whether the declared frame can run.
 
-/// What can be checked before culling: passes that will be culled are checked too. Errors name the
-/// pass and the resource.
+/// Checks that need no culling: passes that will be culled are checked too. Errors name the pass
+/// and the resource.
 [[nodiscard]] core::Status checkDeclaration(const Graph& graph);
 
 /// Outputs and what the host reads must still exist when the frame ends.

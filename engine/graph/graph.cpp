@@ -28,7 +28,7 @@ ClearColor ClearColor::uints(uint32_t r) {
 }
 
 Graph::Graph() {
-    static std::atomic<uint32_t> next = 1; // 0 is what a handle nobody made has
+    static std::atomic<uint32_t> next = 1; // 0 is the id of a default-constructed handle
     mId = next++;
 }
 

@@ -85,11 +85,11 @@ struct ResourceRecord {
     /// Imported images: layout before and after the frame. UNDEFINED before: contents are dropped.
     VkImageLayout initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED; ///< UNDEFINED: whatever is left
-    /// Imported images whose users outside the frame were told; else any command may be one.
+    /// Users of an imported image outside of the frame; nothing: any command may be one.
     std::optional<OutsideUse> before;
     std::optional<OutsideUse> after;
     uint32_t versionCount =
-        1; ///< version 0: what is there before any pass (nothing, for transients)
+        1; ///< version 0: the contents before any pass (undefined for transients)
 
     /// Whether version 0 holds anything.
     [[nodiscard]] bool hasContentsAtStart() const {
@@ -107,8 +107,8 @@ class PassBuilder {
     /// Reads; returns the same handle for storing in Data.
     ImageHandle read(ImageHandle image, Access access);
     BufferHandle read(BufferHandle buffer, Access access);
-    /// Writes all or part. The returned version holds what was there before plus what is written
-    /// (for a fresh transient: only what is written).
+    /// Writes all or part. The returned version holds the former contents and what the pass writes
+    /// (for a fresh transient: only the latter).
     [[nodiscard]] ImageHandle write(ImageHandle image, Access access);
     [[nodiscard]] BufferHandle write(BufferHandle buffer, Access access);
     /// Attachments in the order of the calls.
@@ -154,7 +154,7 @@ class Graph {
     /// Setup fills `Data` and is called before this returns; execute is called while recording.
     template <class Data, class Setup, class Execute>
     const Data& addPass(std::string name, PassKind kind, Setup&& setup, Execute&& execute) {
-        PassRecord pass; // joins the graph once it is complete: a setup may add passes of its own
+        PassRecord pass; // added to the graph once complete: a setup may add further passes
         pass.name = std::move(name);
         pass.kind = kind;
         auto data = std::make_shared<Data>();
@@ -173,8 +173,8 @@ class Graph {
 
     [[nodiscard]] const TransientImageDesc& describeImage(ImageHandle image) const;
 
-    /// The handle of a version of an image that was declared (CHECKed), for who looks at passes()
-    /// later.
+    /// Returns the handle of a declared version of an image (CHECKed), for later inspection of
+    /// passes().
     [[nodiscard]] ImageHandle findImage(uint32_t resource, uint32_t version) const;
 
     [[nodiscard]] const std::vector<PassRecord>& passes() const { return mPasses; }
@@ -186,7 +186,7 @@ class Graph {
         return mOutputs;
     }
 
-    /// What was found wrong while declaring, a sentence each.
+    /// Errors found while declaring, one sentence each.
     [[nodiscard]] const std::vector<std::string>& problems() const { return mProblems; }
 
   private:

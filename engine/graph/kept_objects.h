@@ -8,12 +8,11 @@
 
 namespace shutter::graph {
 
-/// Objects by what they were made from, kept from round to round in case they are asked for again.
-/// One key may have several: a round uses each object once. Addresses stay until dropIdle() or
-/// clear().
+/// Objects by key, cached from round to round for reuse. One key may have several: a round uses
+/// each object once. Addresses stay until dropIdle() or clear().
 template <class Key, class Object> class KeptObjects {
   public:
-    /// What was used so far becomes idle.
+    /// All objects become idle.
     void beginRound() { ++mRound; }
 
     /// An idle object of this key, which this round now uses; null: make one and add() it.
@@ -78,7 +77,7 @@ template <class Key, class Object> class KeptObjects {
         return oldest;
     }
 
-    std::list<Entry> mEntries; ///< not a vector: what it holds must not move
+    std::list<Entry> mEntries; ///< not a vector: addresses of elements must not change
     uint64_t mRound = 0;
 };
 

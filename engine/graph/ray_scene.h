@@ -11,7 +11,7 @@ namespace shutter::graph {
 /// The scene at the raster instant.
 struct RayScene {
     BufferHandle tlasBuffer; ///< read with Access::AccelerationRead
-    /// A second TLAS, of what moves: read with Access::AccelerationRead; invalid: there is none.
+    /// A second TLAS, of the movers: read with Access::AccelerationRead; invalid: there is none.
     BufferHandle movingTlasBuffer;
     /// BLAS of deformed meshes, read with Access::AccelerationRead, and their vertices, read with
     /// Access::ShaderRead; invalid where nothing is deformed.

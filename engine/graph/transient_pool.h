@@ -13,7 +13,7 @@
 namespace shutter::graph {
 
 /// The images and buffers behind the transients of one frame in flight. They outlive the plan that
-/// asked for them: plans change when motion starts or stops, and drivers may take tens of
+/// requested them: plans change when motion starts or stops, and drivers may take tens of
 /// milliseconds to allocate. The block of memory that images share only grows; images that wait for
 /// their plan to come back cost handles, buffers no more memory than the largest plan uses.
 class TransientPool {
@@ -23,8 +23,8 @@ class TransientPool {
     TransientPool(const TransientPool&) = delete;
     TransientPool& operator=(const TransientPool&) = delete;
 
-    /// Gives all back if the last frame's pictures had another size: what is kept for those will
-    /// not be asked for soon, and could be far larger. To be called before realize().
+    /// Frees everything if the last frame's pictures had another size: images of that size are
+    /// unlikely to be needed soon and may be far larger. Must be called before realize().
     void keepFor(uint32_t width, uint32_t height);
 
     /// Makes what `plan` needs. After it, image() and buffer() answer for its resources. The GPU
@@ -38,7 +38,7 @@ class TransientPool {
     /// Gives everything back.
     void clear();
 
-    /// For compile(): asks the driver (cached). Must not be called after this pool is gone.
+    /// For compile(): queries the driver (cached). Must not be called after this pool is destroyed.
     [[nodiscard]] RequirementFunction requirementFunction();
 
   private:

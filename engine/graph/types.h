@@ -49,8 +49,7 @@ struct TransientBufferDesc {
     bool operator==(const TransientBufferDesc&) const = default;
 };
 
-/// What others do to an imported image before the frame or after it, as the frame must know it to
-/// stand between the two.
+/// How an imported image is used before or after the frame, for the barriers at both ends.
 struct OutsideUse {
     /// Before: UNDEFINED drops the contents. After: UNDEFINED, whatever is left.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -64,8 +63,8 @@ enum class Access : uint8_t {
     SampledFragment, ///< image: texture() in a fragment shader
     StorageRead,     ///< image or buffer: load in a compute or ray-tracing shader
     StorageWrite,    ///< image or buffer: store (and load) in a compute or ray-tracing shader
-    /// image: the same where passes that follow one another write each other's texels neither way:
-    /// nothing stands between them, and they may run at once
+    /// image: the same, but consecutive passes write disjoint texels: there is no barrier between
+    /// them, and they may run concurrently
     StorageWriteDisjoint,
     /// image: written, in the general layout, by commands that are not the pass's own: as storage
     /// image, colour attachment or target of copies

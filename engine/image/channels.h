@@ -20,7 +20,7 @@ struct ColorChannels {
 
 /// The colour of a picture: R, G and B, or Y, of the layer without a name, else of the first layer
 /// that has them ("beauty.R"). Without names, one or two channels are grey and three or four a
-/// colour, the last of an even number alpha. Nothing where there is none: motion and depth are no
+/// colour, the last of an even number alpha. Nothing if there is none: motion and depth are not
 /// colours.
 [[nodiscard]] std::optional<ColorChannels> findColor(const Image& picture);
 

@@ -31,7 +31,7 @@ template <typename Visit> void forEachValue(const Image& a, const Image& b, Visi
     }
 }
 
-/// What is compared of a pixel, in both pictures.
+/// The compared values of a pixel in both pictures.
 struct ValuePair {
     double a = 0.0;
     double b = 0.0;

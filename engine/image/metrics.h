@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How different two pictures are. Values are clamped to [0, 1] except where a metric says
-// otherwise; sizes and channel counts must be equal (CHECKed). Pictures without a pixel are equal.
-// PSNR, SSIM and the largest difference compare the first three channels (or those there are)
-// unconverted.
+// How different two pictures are. Values are clamped to [0, 1] except where noted; sizes and
+// channel counts must be equal (CHECKed). Pictures without a pixel are equal. PSNR, SSIM and the
+// largest difference compare the first three channels (or those there are) unconverted.
 #pragma once
 
 #include "engine/image/image.h"

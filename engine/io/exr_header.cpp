@@ -19,8 +19,8 @@ constexpr size_t kMaxNameBytes = 255;
 constexpr uint64_t kOffsetBytes = 8;
 constexpr uint64_t kMaxTilePixels = uint64_t(1) << 24;
 
-/// Types whose values have one size, which OpenEXR reads whatever size the file tells: what follows
-/// would be taken for the next attribute there and skipped here.
+/// Types of fixed size, which OpenEXR reads regardless of the size in the file: the following bytes
+/// would be parsed as the next attribute there and skipped here.
 struct TypeSize {
     std::string_view type;
     uint64_t bytes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an EXR file asks for before its first pixel, checked against its size: OpenEXR makes room
-// for attributes, chunks and tiles as the header tells them.
+// Checks the header of an EXR file against the file's size: OpenEXR allocates memory for
+// attributes, chunks and tiles from the header alone.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@
 
 namespace shutter::io {
 
-/// The first `maxBytes` bytes of a regular file (all of it when it is shorter). An Error says in
-/// one sentence that the path is missing, a folder, not a regular file or not readable.
+/// The first `maxBytes` bytes of a regular file (all of it when it is shorter). Error: one
+/// sentence: the path is missing, a folder, not a regular file or not readable.
 [[nodiscard]] core::Result<std::vector<uint8_t>>
 readFileBytes(const std::filesystem::path& path, uint64_t maxBytes);
 
@@ -25,8 +25,8 @@ writeFileBytes(const std::filesystem::path& path, std::span<const uint8_t> bytes
 /// The same for text.
 [[nodiscard]] core::Status writeFileText(const std::filesystem::path& path, std::string_view text);
 
-/// 32 hexadecimal digits that identify contents, to find again what was computed from them; not for
-/// security. FarmHash Fingerprint128: the same on every machine.
+/// 32 hexadecimal digits that identify contents, as a cache key; not for security. FarmHash
+/// Fingerprint128: the same on every machine.
 [[nodiscard]] std::string computeContentHash(std::string_view bytes);
 
 /// computeContentHash() of a file's bytes. Error: the file cannot be read; names it.

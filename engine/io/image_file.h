@@ -16,12 +16,12 @@
 
 namespace shutter::io {
 
-/// ".png" of "a.PNG": what a file's name says of its format.
+/// The extension in lower case: ".png" for "a.PNG".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
 
-/// Reads a PNG, JPEG, EXR or Radiance HDR, told apart by content, as floats (8-bit formats: value /
-/// 255, not linearised). Of an EXR the pixels of the data window, wherever it lies:
-/// readStoredImage() tells. Error: names the file and why.
+/// Reads a PNG, JPEG, EXR or Radiance HDR, distinguished by content, as floats (8-bit formats:
+/// value / 255, not linearised). For an EXR, the pixels of the data window; readStoredImage() also
+/// returns its position. Error: names the file and why.
 [[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
 
 /// A rectangle of pixels; x to the right, y down.
@@ -34,7 +34,7 @@ struct PixelWindow {
     bool operator==(const PixelWindow&) const = default;
 };
 
-/// A picture and what its file says of the values and of their place.
+/// A picture with its file's metadata on value encoding and placement.
 struct StoredImage {
     image::Image image;            ///< the pixels that there are: those of the data window
     bool isDisplayEncoded = false; ///< 8 or 16 bits: sRGB; else (EXR, HDR) linear light, or data
@@ -66,12 +66,12 @@ isDisplayFormat(const std::filesystem::path& path, std::string_view known = ".ex
 /// How EXR channels are stored.
 enum class SampleType : uint8_t { Half, Float, Uint };
 
-/// Quality of a JPEG where nobody asks for another, of 100.
+/// Default quality of a JPEG, 1 to 100.
 inline constexpr int kJpegQuality = 95;
 
 /// Writes .exr (as `type`), .png (8 bit) or .jpg (8 bit, kJpegQuality). Written to a temporary file
-/// beside and renamed, so that an interrupted write never leaves a half picture under this name.
-/// PNG and JPEG take the first three channels (or one) and clamp to [0, 1].
+/// in the same folder and renamed, so that an interrupted write never leaves a partial file under
+/// this name. PNG and JPEG take the first three channels (or one) and clamp to [0, 1].
 [[nodiscard]] core::Status writeImage(
     const std::filesystem::path& path,
     const image::Image& image,
@@ -79,7 +79,7 @@ inline constexpr int kJpegQuality = 95;
 );
 
 /// The bytes of the file that writeImage() would write.
-/// \param fileName its extension says the format
+/// \param fileName its extension selects the format
 /// \param jpegQuality 1 to 100; other formats do not use it
 [[nodiscard]] core::Result<std::vector<uint8_t>> encodeImage(
     const std::filesystem::path& fileName,
@@ -88,7 +88,7 @@ inline constexpr int kJpegQuality = 95;
     int jpegQuality = kJpegQuality
 );
 
-/// writeImage() of a .png (CHECKed) of 16 bits a channel.
+/// writeImage() of a .png (CHECKed) of 16 bits per channel.
 [[nodiscard]] core::Status
 writeDeepPng(const std::filesystem::path& path, const image::Image& image);
 
@@ -105,7 +105,7 @@ struct Timecode {
 /// Frames that a second of a picture's time code may have.
 inline constexpr uint32_t kMaxTimecodeRate = 30;
 
-/// What the picture of a sequence says of its place in time.
+/// Time metadata of a picture of a sequence.
 struct FrameStamp {
     core::FrameRate rate;
     std::optional<Timecode> timecode{};
@@ -117,7 +117,7 @@ struct FrameStamp {
     const std::filesystem::path& path, const image::Image& image, const FrameStamp& stamp
 );
 
-/// A key of at most 79 letters, and what a PNG file says under it (tEXt).
+/// A key of at most 79 letters and its text in a PNG file (tEXt).
 struct PictureText {
     std::string key;
     std::string text;

@@ -26,12 +26,13 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Largest side of a picture that readFloats takes; bounds the memory a damaged header can ask for.
+/// Largest side of a picture that readFloats takes; bounds the memory that a damaged header can
+/// request.
 constexpr int kMaxFloatSide = 65536;
 constexpr uint64_t kMaxFloatValues = uint64_t(1) << 31; // 8 GiB
 
-/// Most values that a byte of a file stands for, rounded up: deflate's 1032 bytes a byte, and of an
-/// EXR's DWA an 8x8 block in two of those; of a PNG, 8 pixels a byte.
+/// Maximum number of values per byte of a file, rounded up: deflate expands a byte to 1032 bytes,
+/// in which an EXR's DWA stores an 8x8 block in two bytes and a PNG 8 pixels in one.
 constexpr uint64_t kMaxFloatsPerByte = 65536;
 constexpr uint64_t kMaxPixelsPerByte = 8 * 1032 + 64;
 
@@ -178,7 +179,7 @@ bool isPngComplete(std::istream& stream, uint64_t size) {
     return false;
 }
 
-/// Returns an empty string, or what is wrong with the file before it is opened.
+/// Checks a file before it is opened. Returns an empty string or an error message.
 std::string checkFile(const char* reader, const std::string& path, uint64_t fileBytes) {
     const std::string_view name = reader;
     if (name == "openexr")
@@ -260,7 +261,8 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
         if (request.frameRate) {
             const std::array<int32_t, 2> terms = {
                 request.frameRate->first, int32_t(request.frameRate->second)};
-            // OpenEXR's name: of its own, FramesPerSecond, OpenImageIO 2.4 makes another attribute.
+            // OpenEXR's name: OpenImageIO 2.4 writes its own name, FramesPerSecond, as another
+            // attribute.
             spec.attribute("framesPerSecond", OIIO::TypeRational, terms.data());
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only door to OpenImageIO. Kept apart from core/result.h because OpenImageIO's headers bring a
-// copy of fmt of their own, which must not meet ours in one source file.
+// The only interface to OpenImageIO. Does not include core/result.h, because OpenImageIO's headers
+// bundle a copy of fmt that conflicts with ours in one source file.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct EncodeRequest {
     uint32_t width = 0;
     uint32_t height = 0;
     uint32_t channels = 0;
-    std::vector<std::string> channelNames; ///< empty, or one a channel
+    std::vector<std::string> channelNames; ///< empty, or one per channel
     Storage storage = Storage::Float;
     const void* pixels = nullptr;
     std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
@@ -55,11 +55,11 @@ struct EncodeRequest {
     int jpegQuality = 0; ///< of JPEG: 1 to 100
 };
 
-/// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty
-/// more, not all of which bear damaged files. Unsigned 32-bit channels keep their value (exact to
-/// 2^24), 8 and 16-bit ones are scaled to [0, 1]. Alpha is not multiplied in. Refuses pictures that
-/// are too large, and those that no file of its size can hold, before decoding. Returns an empty
-/// string, or why it failed.
+/// Reads PNG, JPEG, EXR and Radiance HDR, distinguished by content: OpenImageIO reads thirty more
+/// formats, but not all of its readers are robust against damaged files. Unsigned 32-bit channels
+/// are not scaled (exact to 2^24); 8 and 16-bit channels are scaled to [0, 1]. Alpha is not
+/// multiplied in. Refuses pictures that are too large, and those that no file of its size can hold,
+/// before decoding. Returns an empty string, or why it failed.
 /// \param fileBytes size of the file
 /// \param begin the first bytes of the file, 16 where it has as many
 [[nodiscard]] std::string readFloats(

@@ -77,10 +77,10 @@ struct Child {
 
 /// Runs in the copy of a program with threads: calls nothing but the system.
 [[noreturn]] void become(const Child& child) {
-    // It ends when we do, even by SIGKILL; nobody would take the film that it goes on encoding.
+    // The child ends with us, even by SIGKILL, since its output would have no reader.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != child.parent)
-        ::_exit(127); // we ended before it was told
+        ::_exit(127); // we ended before the call above
     const int nothing = ::open("/dev/null", O_RDONLY);
     if (nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
         ::dup2(child.output, STDOUT_FILENO) >= 0 && ::dup2(child.errors, STDERR_FILENO) >= 0 &&
@@ -111,7 +111,7 @@ void collect(Pipe& output, Pipe& errors, ProcessResult& result) {
     while (waited[0].fd >= 0 || waited[1].fd >= 0) {
         if (::poll(waited.data(), waited.size(), -1) < 0) {
             if (errno == EINTR)
-                continue; // what stands in `revents` is of the round before
+                continue; // `revents` is stale after an interrupted call
             break;
         }
         for (size_t i = 0; i < waited.size(); ++i) {

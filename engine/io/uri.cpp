@@ -113,7 +113,7 @@ bool isToken(std::string_view text) {
     });
 }
 
-/// Whether `separator` stands once in `text`, between two tokens.
+/// Whether `separator` occurs exactly once in `text`, between two tokens.
 bool isPairOfTokens(std::string_view text, char separator) {
     const size_t place = text.find(separator);
     return place != std::string_view::npos && isToken(text.substr(0, place)) &&

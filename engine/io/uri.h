@@ -15,22 +15,22 @@ namespace shutter::io {
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
 /// Bytes of a data URI (RFC 2397), base64 (the URL-safe alphabet as well, padding may lack) or
-/// percent-encoded; which media type it tells does not matter. An Error names what is malformed.
+/// percent-encoded; the media type is ignored. An Error names what is malformed.
 [[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
 
 /// Which files a file may name.
 enum class Reach : uint8_t {
     Folder,   ///< those in its own folder and below
-    Anywhere, ///< all, as its reader has said
+    Anywhere, ///< all files, at the reader's request
 };
 
 /// The file that a relative URI names below `folder` (empty: the working folder). `.` and `..` are
-/// resolved in the text, as RFC 3986 has it: a folder that `..` leaves again need not exist, and is
-/// not followed if it is a link. Refuses, without touching the disk first: nothing at all, schemes
+/// resolved in the text, as in RFC 3986: a folder that `..` leaves again need not exist, and is not
+/// followed if it is a link. Refuses, without touching the disk first: nothing at all, schemes
 /// (http:, file:, C:), absolute paths, more `..` than names before them, `..\`, NUL, broken
-/// percent-encoding, over 4096 bytes; then links that lead out of the folder. With
-/// Reach::Anywhere, absolute paths, any `..` and such links are taken. The file itself need not
-/// exist. An Error says what is wrong with the URI.
+/// percent-encoding, over 4096 bytes; then links that lead out of the folder. With Reach::Anywhere,
+/// absolute paths, any `..` and such links are taken. The file itself need not exist. Error: the
+/// fault of the URI.
 [[nodiscard]] core::Result<std::filesystem::path>
 resolveUri(const std::filesystem::path& folder, std::string_view uri, Reach reach = Reach::Folder);
 
@@ -39,7 +39,7 @@ resolveUri(const std::filesystem::path& folder, std::string_view uri, Reach reac
 [[nodiscard]] bool
 liesInside(const std::filesystem::path& folder, const std::filesystem::path& path);
 
-/// A URI as it may stand in a message: its first 80 bytes and "..." where it is longer.
+/// A URI for use in a message: its first 80 bytes and "..." where it is longer.
 [[nodiscard]] std::string abbreviateUri(std::string_view uri);
 
 } // namespace shutter::io

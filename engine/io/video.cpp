@@ -121,7 +121,7 @@ std::vector<std::string> listArguments(
          "-color_range",
          "tv"}
     );
-    // The same bits wherever it runs: slices and versions would tell of the machine.
+    // Makes output bit-exact on every machine: slices and version strings would differ.
     add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
     if (!encoder.format.timecode.empty())
         add({"-timecode", encoder.format.timecode});
@@ -232,7 +232,7 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
             run.value().exitStatus,
             findLastLine(run.value().errors)
         ));
-    // It says nothing where all is well, and of frames that are missing it says nothing at all.
+    // It prints nothing on success, and nothing about missing frames either.
     if (!run.value().errors.empty())
         return fail(
             fmt::format("{} says: {}", encoder.program.string(), findLastLine(run.value().errors))

@@ -28,11 +28,11 @@ struct VideoFormat {
     uint32_t kilobits = 0;
 };
 
-/// An ffmpeg that was found, and what it encodes with.
+/// An installed ffmpeg and its encoder.
 struct VideoEncoder {
     std::filesystem::path program;
     std::string codec;   ///< ffmpeg's name; for H264 of 8 bits, mpeg4 where libx264 is missing
-    std::string version; ///< the first line that it says of itself
+    std::string version; ///< the first line of its version message
     VideoFormat format;
 };
 

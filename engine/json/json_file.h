@@ -161,7 +161,7 @@ class JsonDocument {
     std::unique_ptr<JsonTree> mTree;
 };
 
-/// Parses a file and returns `read(root)`, or what is wrong with the file.
+/// Parses a file and returns `read(root)`, or an error that names the file and the fault.
 /// \param read takes a JsonNode and returns a value that does not refer to the document
 template <class Read>
 [[nodiscard]] auto readJsonFile(const std::filesystem::path& path, Read read)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes around what is drawn, in the space and the unit of the points that are added: objects' own,
-// world or view, metres.
+// Bounding boxes in the space and unit of their points: object, world or view space, metres.
 #pragma once
 
 #include "engine/math/math.h"
@@ -28,8 +27,8 @@ struct Bounds {
     [[nodiscard]] dvec3 size() const { return max - min; }
 };
 
-/// Box around the eight transformed corners, so larger than what it holds where `matrix` turns;
-/// empty stays empty. \param matrix affine
+/// Box around the eight transformed corners, so larger than its contents if `matrix` rotates; empty
+/// stays empty. \param matrix affine
 [[nodiscard]] Bounds transformBounds(const dmat4& matrix, const Bounds& bounds);
 
 /// Whether no component's magnitude exceeds `limit`; false if one is NaN.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where the surfaces that raster images hold are seen at the instants of an exposure: affine maps
-// between picture spaces (shaders/common/instant_motion_shared.h), mover by mover. Whoever knows
-// where things are, a world of entities or a foreign engine, builds the same tables.
+// Motion of the surfaces in raster images over the instants of an exposure: affine maps between
+// picture spaces (shaders/common/instant_motion_shared.h), per mover. A world of entities and a
+// host engine both build these tables.
 #pragma once
 
 #include "engine/math/math.h"
@@ -16,37 +16,38 @@
 
 namespace shutter::math {
 
-/// What one raster holds of the exposure.
+/// The movers of one raster and their motion over the exposure.
 struct LayerTables {
     std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
     std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
     /// By row of the raster's entity table: the same entity's row in this frame's raster, or
     /// shader::kNoRasterRow; empty for this frame's raster itself.
     std::vector<uint32_t> rasterRows;
-    /// What is static in the world is where the raster has it, at every instant.
+    /// Static entities have the same place in the picture at every instant, as in the raster.
     bool isStill = false;
     bool deforms = false; ///< a mover is shader::kDeformedMover
 };
 
-/// What a frame's rasters and the one of the frame before hold.
+/// Tables of a frame's rasters and of the previous frame's.
 struct InstantLayers {
     LayerTables raster;
-    std::optional<LayerTables> second; ///< of the exposure's other end; nothing: there is none
-    std::optional<LayerTables> last;   ///< nothing: the last raster says nothing about this frame
+    std::optional<LayerTables> second; ///< raster at the exposure's other end; nothing: there is
+                                       ///< none
+    std::optional<LayerTables> last;   ///< nothing: the last raster is not usable for this frame
     std::vector<float> times;          ///< shutter time of each instant, [0, 1]
     std::vector<vec4> lens;            ///< InstantMotions::lens; empty: there is none
     vec2 confusion{0.0f};              ///< InstantMotions::confusion
     bool isPerspective = true;         ///< the camera is, at every instant; false: orthographic
 };
 
-/// Picture space from a view space that looks down -Z.
+/// Picture space from a view space with -Z forward.
 /// \param clipFromView perspective with a clip w of -z, or orthographic with one of 1; y down
-/// \param jitterPx the raster's, right and down: its places are that much less
+/// \param jitterPx of the raster, right and down; subtracted from positions
 [[nodiscard]] dmat4
 pictureFromView(const dmat4& clipFromView, const uvec2& sizePx, const dvec2& jitterPx);
 
-/// Both maps between a raster's picture space and an instant's; none where the map is singular or
-/// leaves the range of single precision.
+/// Makes both maps between a raster's picture space and an instant's; all zeros if the map is
+/// singular or exceeds the range of single precision.
 [[nodiscard]] shader::InstantMotion makeInstantMotion(const dmat4& instantFromRaster);
 
 /// Builds the tables of one layer. To begin with, all rows are static in the world.

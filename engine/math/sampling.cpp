@@ -116,8 +116,8 @@ std::vector<uint32_t> makeBlueNoise(uint32_t side, uint32_t seed) {
         rest.set(cluster, false);
         ranks[cluster] = rank - 1;
     }
-    // Where most are set, the paper looks for the tightest cluster of free places: on a torus that
-    // is the largest void of the set ones.
+    // Once most are set, the paper searches the tightest cluster of free places: on a torus that is
+    // the largest void of the set ones.
     for (uint32_t rank = startCount; rank < cells; ++rank) {
         const size_t gap = pattern.findVoid();
         pattern.set(gap, true);

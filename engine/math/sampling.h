@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where to sample: sequences of numbers that fill an interval evenly, however many are taken, and
-// masks of blue noise, whose values are evenly spread over the picture whichever share of them is
-// taken, so that what they vary shows as fine grain only.
+// Sample patterns: sequences that fill an interval evenly for any number of samples, and masks of
+// blue noise, any threshold of which is evenly distributed over the picture, so that sampling error
+// shows as fine grain only.
 #pragma once
 
 #include "engine/math/math.h"

@@ -23,10 +23,10 @@ struct Transform {
 /// Exact at zero velocity: returns the identity.
 [[nodiscard]] dquat integrateRotation(const dvec3& angularVelocity, double seconds);
 
-/// Position and orientation of what looks along -Z with +Y up, without scale, shear and mirroring:
-/// -Z keeps its direction, and +Y the side of it that it lies on; +X follows, so that the axes stay
-/// right-handed. Where one of the three has no length, the two others tell it. Nothing: the matrix
-/// is not finite, or has no two directions.
+/// Position and orientation of a camera or light (forward -Z, up +Y) without scale, shear and
+/// mirroring: -Z preserves its direction and +Y its side of it; +X makes the axes right-handed. If
+/// one of the three has no length, the two others determine it. Nothing: the matrix is not finite,
+/// or has no two directions.
 [[nodiscard]] std::optional<dmat4> findRigid(const dmat4& matrix);
 
 /// findRigid(); a matrix that has none keeps its translation and gets the identity as rotation.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bottom levels of a frame's deformed meshes, for rays at the raster instant.
+// BLASes of a frame's deformed meshes, for rays at the raster instant.
 #pragma once
 
 #include "engine/gpu/structure_set.h"
@@ -12,19 +12,19 @@
 
 namespace shutter::rays {
 
-/// Refits between two builds: each lets the tree grow a little worse.
+/// Refits between two builds: each refit degrades the tree a little.
 inline constexpr uint32_t kRefitsPerBuild = 15;
 
-/// Refitted, refitted, ..., built anew: one level's turns. Those of a crowd that is first seen in
-/// one frame are built anew in different frames later.
+/// Schedules the refits and rebuilds of one BLAS. BLASes that are first built in the same frame are
+/// rebuilt in different frames later.
 class RefitTurns {
   public:
     RefitTurns() = default;
 
-    /// \param index of the level among those of its frame
+    /// \param index of the BLAS among those of its frame
     explicit RefitTurns(size_t index) : mRefits(uint32_t(index % (kRefitsPerBuild + 1))) {}
 
-    /// What is to be done where the shape has changed.
+    /// Returns the action for a changed shape.
     gpu::BuildAction take() {
         mRefits = mRefits < kRefitsPerBuild ? mRefits + 1 : 0;
         return mRefits > 0 ? gpu::BuildAction::Refit : gpu::BuildAction::Build;
@@ -34,8 +34,8 @@ class RefitTurns {
     uint32_t mRefits = 0; ///< since it was built from nothing, or taken to have been
 };
 
-/// One bottom level an entity of ExtractedFrame::deformed. What keeps its shape from one frame to
-/// the next is kept; what changes it is refitted, and built anew now and then.
+/// One BLAS per entity of ExtractedFrame::deformed. Unchanged shapes are reused; changed shapes are
+/// refitted, and rebuilt at intervals.
 class DeformedBlas {
   public:
     explicit DeformedBlas(gpu::Device& device) : mDevice(device) {}
@@ -52,11 +52,11 @@ class DeformedBlas {
     /// The structure of ExtractedFrame::deformed[index]; 0: it has no triangles.
     [[nodiscard]] VkDeviceAddress address(size_t index) const { return mAddresses[index]; }
 
-    /// The last declare() declared a build: structures above have to be built too.
+    /// The last declare() declared a build: the TLAS has to be built too.
     [[nodiscard]] bool wasRebuilt() const { return mWasRebuilt; }
 
   private:
-    /// What a level was built of last.
+    /// The inputs of a BLAS's last build.
     struct Built {
         ecs::Entity entity;
         uint32_t mesh = 0;
@@ -70,7 +70,7 @@ class DeformedBlas {
 
     gpu::Device& mDevice;
     gpu::StructureSet mLevels;
-    std::vector<Built> mBuilt; ///< beside mLevels
+    std::vector<Built> mBuilt; ///< parallel to mLevels
     std::vector<VkDeviceAddress> mAddresses;
     bool mWasRebuilt = false;
 };

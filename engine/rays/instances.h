@@ -18,7 +18,7 @@ namespace shutter::rays {
 struct DeformedInstance {
     uint32_t row = 0;
     uint32_t mesh = 0;
-    bool mirrored = false;    ///< its vertices' winding is turned round
+    bool mirrored = false;    ///< its vertices' winding is reversed
     VkDeviceAddress blas = 0; ///< of its shape; 0: left out
     math::Bounds bounds;      ///< object space
 };
@@ -28,7 +28,8 @@ class InstanceList {
   public:
     explicit InstanceList(const gpu_scene::GpuScene& scene) : mScene(scene) {}
 
-    /// Leaves out meshes that no ray can meet and matrices that are singular or not finite: false.
+    /// Adds an instance. Returns false for meshes that no ray can hit and for matrices that are
+    /// singular or not finite.
     /// \param eyeFromObject rows of a 3x4 matrix
     /// \param solidMask bits of kSolidMask that its solid parts get
     bool
@@ -42,7 +43,7 @@ class InstanceList {
         uint32_t solidMask = shader::kSolidMask);
     void add(const gpu::Instance& instance, const extract::Box& box);
 
-    /// Empties it; the memory stays.
+    /// Empties it without freeing memory.
     void clear() {
         mInstances.clear();
         mBoxes.clear();
@@ -56,7 +57,7 @@ class InstanceList {
         return extract::computeSpatialOrder(mBoxes);
     }
 
-    /// In an order that builders which keep it make a good tree of.
+    /// Returns them in an order of which order-preserving builders make a good tree.
     [[nodiscard]] std::vector<gpu::Instance> order() const;
 
   private:

@@ -46,7 +46,7 @@ struct TimedBlas::Work {
     };
 
     gpu_scene::PoseTable poses;
-    std::vector<gpu_scene::PoseTable::Place> places; ///< one a shape, of its first key
+    std::vector<gpu_scene::PoseTable::Place> places; ///< one per shape, of its first key
     std::vector<Deform> deforms;
     std::vector<Bound> bounds;
     std::vector<gpu::BlasDesc> levels;

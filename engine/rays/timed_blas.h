@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Deformed meshes for rays that each have their own time. A shape that changes has its vertices at
-// each key, and for each two keys next to each other a structure of boxes, one a triangle over its
-// straight way from one key to the other: a ray that meets a box meets the triangle as it is at the
-// ray's own time. A shape that is static is a mesh like any other.
+// Deformed meshes for time-sampled rays. A changing shape has its vertices at each key, and for
+// each two adjacent keys a BLAS of boxes, one per triangle, around its linear motion from one key
+// to the other: a ray that hits a box is tested against the triangle at the ray's time. An
+// unchanging shape is an ordinary mesh.
 #pragma once
 
 #include "engine/extract/timed_tables.h"
@@ -20,11 +20,11 @@ class TimedBlas {
   public:
     explicit TimedBlas(gpu::Device& device) : mDevice(device), mDeformer(device) {}
 
-    /// What rays need of one shape.
+    /// The ray-tracing data of one shape.
     struct Entry {
         uint32_t firstRow = 0;     ///< index into rows()
         uint32_t keyCount = 1;     ///< shader::TimedRow::deformationKeyCount
-        VkDeviceAddress level = 0; ///< its bottom level; 0: it changes, or has no triangles
+        VkDeviceAddress level = 0; ///< its BLAS; 0: it changes, or has no triangles
         VkDeviceAddress scene = 0; ///< shader::TimedRow::meshScene; 0: it has no triangles
     };
 
@@ -33,7 +33,7 @@ class TimedBlas {
     void
     update(std::span<const extract::TimedDeformation> shapes, const gpu_scene::GpuScene& scene);
 
-    /// Geometries of all shapes, one shape's behind the other's.
+    /// Geometries of all shapes, shape after shape.
     [[nodiscard]] const std::vector<shader::Geometry>& rows() const { return mRows; }
 
     [[nodiscard]] const Entry& operator[](size_t shape) const { return mEntries[shape]; }
@@ -57,13 +57,13 @@ class TimedBlas {
     std::vector<extract::TimedDeformation> mShapes; ///< of the last call
     std::vector<shader::Geometry> mRows;
     std::vector<Entry> mEntries;
-    std::vector<size_t> mFirstLevel; ///< one a shape, and one past the last: into mLevels
+    std::vector<size_t> mFirstLevel; ///< one per shape, and one past the last: into mLevels
     gpu::Buffer mPoses;
     gpu::Buffer mVertices;
     gpu::Buffer mBoxes;
     gpu::Buffer mAddresses; ///< uvec2[]: scenes of the shapes that change
     gpu::StructureSet mLevels;
-    gpu::StructureSet mScenes; ///< one a level
+    gpu::StructureSet mScenes; ///< one per BLAS
 };
 
 } // namespace shutter::rays

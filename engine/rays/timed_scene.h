@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The scene for rays that each have their own time. Static things are instances of triangles as
-// ever. What moves is a box over its whole way; a ray that meets the box goes, with the entity's
-// placement at the ray's own time, into object space and on through the mesh's own structure. No
-// time is quantised, and nothing is rebuilt for another time.
+// The scene for time-sampled rays. Static entities are ordinary instances. A mover is a box around
+// its whole motion; a ray that hits the box is transformed into object space, by the entity's
+// placement at the ray's time, and traced through the mesh's BLAS. No time is quantised, and
+// nothing is rebuilt for another time.
 #pragma once
 
 #include "engine/extract/timed_tables.h"
@@ -21,14 +21,15 @@ class TimedScene {
   public:
     explicit TimedScene(gpu::Device& device) : mDevice(device), mShapes(device) {}
 
-    /// Deforms what deforms; to be called before declare(). The GPU must be done with the last
-    /// frame's. \return rows for the frame's geometry table, to stand one behind the other
+    /// Deforms meshes; must be called before declare(). The GPU must have finished the last
+    /// frame's. \return consecutive rows for the frame's geometry table
     [[nodiscard]] const std::vector<shader::Geometry>&
     prepareDeformed(const extract::TimedTables& tables, const gpu_scene::GpuScene& scene);
 
     /// Uploads the tables and declares the builds. The GPU must be done with the last frame's.
     /// \param tables computed with `frame`
-    /// \param firstDeformedGeometry where the rows of prepareDeformed() stand in the geometry table
+    /// \param firstDeformedGeometry index of the first row of prepareDeformed() in the geometry
+    /// table
     [[nodiscard]] graph::TimedRays declare(
         graph::Graph& graph,
         const extract::TimedTables& tables,

@@ -102,7 +102,7 @@ void FrameTlas::orderStill(const extract::ExtractedFrame& frame, const gpu_scene
 bool FrameTlas::updateStill(
     const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene
 ) {
-    // Where the camera moves, what is static has masks that change with what else there is.
+    // While the camera moves, the masks of static entities depend on the other entities.
     if (mStillRevision == frame.stillRevision && frame.stillMotions.empty())
         return false;
     if (mStillSet != frame.stillSet)

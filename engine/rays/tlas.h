@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The top-level acceleration structures of rays at the raster instant. They are built when an
-// instance changed, and what is static in the world may have one of its own, which few movers
-// then leave as it is.
+// The top-level acceleration structures of rays at the raster instant. They are rebuilt when an
+// instance changed. Static instances may have a TLAS of their own, so that it need not be rebuilt
+// for movers.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -18,17 +18,17 @@
 
 namespace shutter::rays {
 
-/// Fewest instances that are static in a level of their own: a ray goes through two levels then,
-/// which costs more than building a small one anew does.
+/// Minimum number of instances for a separate static TLAS: rays then traverse two, which costs more
+/// than rebuilding a small one.
 inline constexpr size_t kStaticTlasInstances = 256;
 
-/// The levels of one frame.
+/// The TLASes of one frame.
 struct TlasHandles {
     VkAccelerationStructureKHR level = VK_NULL_HANDLE;
     graph::BufferHandle buffer;         ///< read it with Access::AccelerationRead
-    VkDeviceAddress movingTlas = 0;     ///< of a second level, with what moves; 0: there is none
+    VkDeviceAddress movingTlas = 0;     ///< of the second TLAS, with the movers; 0: there is none
     graph::BufferHandle movingBuffer;   ///< read it likewise, unless it is invalid
-    graph::BufferHandle deformedBuffer; ///< levels of deformed meshes: likewise
+    graph::BufferHandle deformedBuffer; ///< BLASes of deformed meshes: likewise
 };
 
 class FrameTlas {
@@ -36,7 +36,7 @@ class FrameTlas {
     explicit FrameTlas(gpu::Device& device) : mDevice(device), mDeformedBlas(device) {}
 
     /// Declares the builds that the frame calls for, of deformed meshes too. The GPU must be done
-    /// with the last frame's. `scene` has its bottom levels, and is the same in every call.
+    /// with the last frame's. `scene` has built its BLASes, and is the same in every call.
     [[nodiscard]] TlasHandles declare(
         graph::Graph& graph,
         const extract::ExtractedFrame& frame,
@@ -45,26 +45,26 @@ class FrameTlas {
     );
 
   private:
-    /// A level and what it was built of last, as it was listed.
+    /// A TLAS and the instances of its last build.
     struct Level {
         gpu::Tlas level;
         std::vector<gpu::Instance> listed;
     };
 
-    // True: the level has to be built.
+    // True: the TLAS has to be built.
     bool updateStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene);
     bool update(Level& level, const InstanceList& instances, bool force);
 
     void orderStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene);
     void listMoving(const extract::ExtractedFrame& frame, InstanceList& instances) const;
-    /// \param build false: it is as it was
+    /// \param build false: it is unchanged
     graph::BufferHandle
     declareOne(graph::Graph& graph, const char* name, const Level& level, bool build) const;
 
     gpu::Device& mDevice;
     DeformedBlas mDeformedBlas;
     graph::BufferHandle mDeformedBlasBuffer; ///< of this frame
-    Level mStill;                            ///< holds all, unless the movers are apart
+    Level mStill;                            ///< holds all, unless the movers are separate
     Level mMoving;
     std::optional<InstanceList> mMovingInstances;
     std::vector<uint32_t> mStillOrder; ///< rows that are static, in spatial order

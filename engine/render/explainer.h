@@ -22,7 +22,7 @@ enum class ExplainedKind : uint8_t {
 
 [[nodiscard]] const char* describe(ExplainedKind kind);
 
-/// What a pass works for, so that its time is counted where it belongs.
+/// The part of the frame that a pass belongs to, for the statistics.
 enum class PassOwner : uint8_t {
     Scene,   ///< any picture needs it: deformed meshes, G-buffer
     Rays,    ///< acceleration structures that effects trace rays through
@@ -55,7 +55,7 @@ class Explainer {
     /// Owners of the plan's passes, in execution order.
     [[nodiscard]] std::vector<PassOwner> listOwners(const graph::Plan& plan) const;
     /// Effects and work as decided; with `passes`, the passes too: those of the plan in execution
-    /// order, then what was left out or culled.
+    /// order, then omitted and culled passes.
     [[nodiscard]] std::vector<Explanation>
     finish(const graph::Graph& graph, const graph::Plan& plan, bool passes) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame took and counted, and why.
+// Times, counters and decisions of a frame.
 #pragma once
 
 #include "engine/gpu/frame.h"
@@ -17,7 +17,7 @@ using Counters = std::map<std::string, uint64_t>;
 /// Figures an effect measures, e.g. "standard error"; a later frame's replaces an earlier one's.
 using Measures = std::map<std::string, double>;
 
-/// Time of one pass, and what it was spent for.
+/// Time of one pass and its owner.
 struct PassTime : gpu::PassTime {
     PassOwner owner = PassOwner::Scene;
 };

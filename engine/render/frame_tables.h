@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What drawing a frame reads beside the scene's own buffers: the entity table, constants, lights,
+// Per-frame buffers for drawing, in addition to the scene's: the entity table, constants, lights,
 // geometries of deformed meshes, and the shutter's response.
 #pragma once
 

@@ -70,7 +70,7 @@ describeSky(const gpu_scene::GpuScene& scene, const GBufferPass::Targets& target
     desc.fragmentSpirv =
         targets.samples > 1 ? std::span<const uint32_t>(render_sky_samples_frag) : render_sky_frag;
     desc.specialization = {};
-    desc.depthCompare = VK_COMPARE_OP_EQUAL; // where the cleared, infinite depth still stands
+    desc.depthCompare = VK_COMPARE_OP_EQUAL; // where the depth is still the cleared, infinite one
     desc.depthWrite = false;
     return desc;
 }
@@ -134,7 +134,7 @@ class Recorder {
         );
     }
 
-    /// Says which sides are drawn, unless that is what was said last.
+    /// Sets culling and winding if they differ from the last call.
     void set(bool doubleSided, bool mirrored) {
         const Sides sides{doubleSided, mirrored};
         if (std::exchange(mSides, sides) == sides)

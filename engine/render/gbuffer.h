@@ -20,7 +20,7 @@ class GBufferPass {
   public:
     enum class Variant : uint8_t { Opaque, Masked, Blended, Premultiplied };
 
-    /// What pipelines are specialised for.
+    /// Specialisation of the pipelines.
     struct Targets {
         bool mayHaveShadows = false; ///< false: for frames in which no light casts any
         uint32_t samples = 1;        ///< per pixel, 1 or shader::kSampleCount
@@ -35,7 +35,7 @@ class GBufferPass {
             const Targets& targets
         );
 
-        gpu::Pipeline still;  ///< of entities that have no motion: works out none and writes 0
+        gpu::Pipeline still;  ///< for entities without motion: writes 0
         gpu::Pipeline moving; ///< of the others
     };
 
@@ -44,7 +44,7 @@ class GBufferPass {
 
     GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);
 
-    /// What a frame is drawn from.
+    /// Inputs of a frame's draws.
     struct Source {
         const extract::ExtractedFrame& frame;
         const gpu_scene::GpuScene& scene;

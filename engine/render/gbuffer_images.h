@@ -14,8 +14,8 @@ inline constexpr VkFormat kSampleSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
 inline constexpr VkFormat kSampleNormalFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kEdgeSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
 
-/// What the raster pass leaves. Formats are chosen for one nearest fetch a tap (lavapipe) and for
-/// motion to a hundredth of a pixel.
+/// The outputs of the raster pass. Formats are chosen for one nearest fetch per tap (lavapipe) and
+/// for motion to a hundredth of a pixel.
 struct GBuffer {
     graph::ImageHandle color;       ///< RGBA16F, linear HDR, at most kMaxColor
     graph::ImageHandle normal;      ///< RGBA16F, xyz unit, world axes; 0 where nothing is
@@ -23,9 +23,9 @@ struct GBuffer {
                                     ///< the view; with edgeSurface, a bit for each sample that
                                     ///< edgeSurface covers, as a number
     graph::ImageHandle entityId;    ///< R32_UINT: row of the entity table, or kNoEntity
-    /// RGBA32_UINT, where motionDepth has bits: the surface that covers those samples of the pixel
-    /// which its own, in the images above, does not: bits of its depth, its row or kNoEntity, its
-    /// colour as three halves (split_samples_shared.h). Invalid: one sample per pixel.
+    /// RGBA32_UINT, where motionDepth has bits: the second surface of the pixel, which covers the
+    /// samples that the one in the images above does not: bits of its depth, its row or kNoEntity,
+    /// its colour as three halves (split_samples_shared.h). Invalid: one sample per pixel.
     graph::ImageHandle edgeSurface;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far each entity moves in the picture, by a look at all of its pixels on the device: a number
-// an entity comes back, not the pictures.
+// Measures on the device how far each entity moves in the picture, over all of its pixels; reads
+// back one number per entity, not the pictures.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -12,7 +12,7 @@
 
 namespace shutter::render {
 
-/// Runs in frames of its own (FrameRequest::isLook), one at a time.
+/// Runs in separate frames (FrameRequest::isLook), one at a time.
 class LongestMotion : public PostEffect {
   public:
     explicit LongestMotion(gpu::Device& device);
@@ -25,8 +25,8 @@ class LongestMotion : public PostEffect {
 
     void declare(PostContext& context) override;
 
-    /// Pixels from open to close, one number a row of the frame declared last, the sky's behind
-    /// them. The GPU must be done with it.
+    /// Returns pixels from open to close, one number per row of the frame declared last, then the
+    /// sky's. The GPU must have finished it.
     [[nodiscard]] std::vector<float> take() const;
 
   private:

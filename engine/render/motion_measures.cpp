@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far what a picture shows moves, found by looking at it, and what of that
-// CameraShutter::maxBlurPercent leaves.
+// Measures motion in a rendered picture, and limits it to CameraShutter::maxBlurPercent.
 #include "engine/extract/exposure_parts.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/exposure_motion.h"
@@ -27,10 +26,11 @@ bool tighten(double& share, double length, double maxPx) {
     return true;
 }
 
-/// Lowers the shares of what moves farther than the cap.
+/// Lowers the shares of entities that move farther than the cap.
 /// \param frame extracted with `cap`
 /// \param longest motion of each row's pixels; the last is the sky's
-/// \param uncapped motion of the same exposure without a cap: tells movers from the still world
+/// \param uncapped motion of the same exposure without a cap: separates movers from the static
+/// world
 /// \param maxPx the cap, 0 or more
 /// \return true: something moved farther than the cap, by more than a hundredth
 bool tightenCap(
@@ -99,7 +99,7 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
         const auto longest = lookAtMotion(world, part);
         if (!longest)
             return longest.error();
-        // The fastest part tells how close instants have to be, which are equally far apart.
+        // The fastest part determines the spacing of the instants, which is uniform.
         for (const float px : longest.value())
             path.px = std::max(path.px, double{px} * parts.count);
     }
@@ -114,7 +114,7 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
 
 core::Result<scene::MotionCap>
 Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
-    // A turning mover's chord is not proportional to its angle: a second look finds the rest.
+    // A rotating mover's chord is not proportional to its angle: further iterations find the rest.
     constexpr int kLooks = 4;
     const double percent = view.exposure.shutter.maxBlurPercent;
     scene::MotionCap cap;

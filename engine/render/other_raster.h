@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The world at another time than the frame's own, drawn for effects that look up there what the
-// frame's own raster does not hold: at the other end of the exposure, or as the frame before had
-// it.
+// A second raster of the world, at another time than the frame's: at the other end of the exposure
+// or at the previous frame. Effects look up surfaces in it that the frame's own raster lacks.
 #pragma once
 
 #include "engine/core/result.h"
@@ -29,8 +28,8 @@ class OtherRaster {
     explicit OtherRaster(gpu::Device& device);
     ~OtherRaster();
 
-    /// \param view of the raster's own time. With an instant, what moves casts the shadow of the
-    /// whole exposure all the same, as in the frame's own raster
+    /// \param view at the raster's time. Even with an instant, movers cast the shadow of the whole
+    /// exposure, as in the frame's own raster
     /// \param layer entities whose blended surfaces are left out, as in the frame's own raster
     /// Error: as FrameExtractor::update.
     [[nodiscard]] core::Status extract(
@@ -40,10 +39,10 @@ class OtherRaster {
         std::span<const ecs::Entity> layer
     );
 
-    /// What was extracted.
+    /// Returns the extracted raster.
     [[nodiscard]] ExtractedRaster extracted() const { return {mFrame, &mView}; }
 
-    /// Declares the passes of what was extracted, which must live until they have been recorded.
+    /// Declares the passes of the extracted raster, which must live until they have been recorded.
     /// \param name of the pass that draws it
     /// \param shadows null: lights cast none
     /// \param keepsEdges GBuffer::edgeSurface is read

@@ -26,8 +26,8 @@ VkDeviceSize alignPart(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
 }
 
-/// In how many parts of the exposure the particles are drawn: as many as their textures or what
-/// lies behind them needs, of which there are four, one or, of few instants, some in between.
+/// Returns the number of parts of the exposure in which the particles are drawn, as required by
+/// their textures or their background: four, one or, with few instants, some in between.
 uint32_t countDraws(const extract::ParticleTables& tables, const ParticleTargets& targets) {
     const uint32_t behind = targets.instants ? targets.instants->rectangle.partCount : 1;
     return tables.parts <= behind ? behind : behind > 1 ? shader::kMaxParticleParts : tables.parts;

@@ -16,17 +16,16 @@
 
 namespace shutter::render {
 
-/// What pixels of a rectangle saw at instants of the exposure.
+/// Surfaces visible in the pixels of a rectangle at instants of the exposure.
 struct ParticleInstants {
     shader::InstantSurfaces rectangle;
-    graph::BufferHandle
-        words; ///< the rectangle, and what shaders/common/instant_surfaces.glsl says
+    graph::BufferHandle words; ///< the rectangle, and data for shaders/common/instant_surfaces.glsl
 };
 
-/// What particles are drawn on, and what they are drawn with.
+/// Targets and inputs of drawing particles.
 struct ParticleTargets {
     graph::ImageHandle color;           ///< linear HDR
-    graph::ImageHandle motionDepth;     ///< GBuffer::motionDepth: what hides them
+    graph::ImageHandle motionDepth;     ///< GBuffer::motionDepth: hides them
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     math::dvec2 jitterPx{0.0};          ///< of the colour (ViewRequest::jitterPx)
@@ -41,7 +40,7 @@ class ParticleBuffer {
     explicit ParticleBuffer(gpu::Device& device) : mDevice(device) {}
 
     /// \param tables not empty
-    /// \return without what ParticleTargets says
+    /// \return without the fields that come from ParticleTargets
     [[nodiscard]] shader::ParticleDraw upload(const extract::ParticleTables& tables);
 
     /// The buffer that upload() wrote.
@@ -78,12 +77,12 @@ class ParticlePass {
 
     struct CompositeKey {
         VkFormat format; ///< of the target
-        bool readsParts; ///< what lies behind differs between the parts of the exposure
+        bool readsParts; ///< the background differs between the parts of the exposure
 
         auto operator<=>(const CompositeKey&) const = default;
     };
 
-    /// What all draws of a picture share.
+    /// Data shared by all draws of a picture.
     struct Draws {
         graph::Graph& graph;
         const ParticleTargets& targets;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each pass of a frame wrote, to find the first that differs between two runs, drivers or
+// Outputs of each pass of a frame, to find the first that differs between two runs, drivers or
 // devices.
 #pragma once
 
@@ -26,7 +26,7 @@ class PassTrace {
     /// Declares copies of every image that the graph's passes write, as each leaves it. Buffers are
     /// not among them: the order of what threads append to a list is not the same in every run. Nor
     /// are images of several samples per pixel, and imported ones that cannot be copied. To be
-    /// called once all else is declared. Error: the graph's mistakes, as compile() tells them.
+    /// called once all else is declared. Error: the graph's mistakes, as from compile().
     [[nodiscard]] core::Status
     declare(graph::Graph& graph, Readback& readback, const graph::RequirementFunction& requirement);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How an effect takes its place in a frame: it says whether the frame calls for it, then
-// declares passes. The renderer knows no effect by name.
+// Interface of effects: an effect decides whether a frame needs it, then declares its passes. The
+// renderer knows no effect by name.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -25,11 +25,11 @@
 
 namespace shutter::render {
 
-/// Measure of a frame that was asked for it: light of the brightest channel of a pixel in the
-/// linear picture that is shown.
+/// Name of the measure on request: the largest channel value of a pixel in the linear picture that
+/// is shown.
 inline constexpr const char* kBrightest = "brightest channel";
 
-/// What an effect may base its decision on.
+/// Inputs of an effect's decision.
 struct ViewFacts {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -39,14 +39,15 @@ struct ViewFacts {
     double rasterTime = 1.0; ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
     bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced
-    /// Whether rays past what moves could find a surface (extract::decideReveal); skipped where
-    /// nothing moves.
+    /// Whether rays past movers could hit a surface (extract::decideReveal); skipped if nothing
+    /// moves.
     core::Decision reveal;
-    /// False: the frame is drawn for what effects keep for the next one alone, and shown by none.
+    /// False: the frame is not shown; it is drawn only for the history of effects.
     bool pictureWanted = true;
-    /// False: the frame after looks nothing up in this one, and what effects kept before stays.
+    /// False: the next frame looks up nothing in this one, and effects preserve their earlier
+    /// history.
     bool isFollowed = true;
-    /// Somebody reads what effects count on the device, beyond what they need themselves.
+    /// Device counters of effects are read, beyond those that they need themselves.
     bool countersWanted = true;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
     /// Light of the brightest channel of a pixel in the last picture that is known; nothing: none
@@ -55,7 +56,7 @@ struct ViewFacts {
     bool brightestWanted = false; ///< that light of this picture is to be measured (kBrightest)
 };
 
-/// Named intermediates that somebody asked to see (`--aov`).
+/// Named intermediates that were requested (`--aov`).
 class Intermediates {
   public:
     explicit Intermediates(std::set<std::string> wanted) : mWanted(std::move(wanted)) {}
@@ -83,7 +84,7 @@ struct ExtractedRaster {
     const extract::ViewRequest* view = nullptr; ///< what `frame` was extracted for
 };
 
-/// What an effect may read of the world. Nothing that is declared afterwards sees it.
+/// Access to the world for effects. Passes declared afterwards have none.
 struct ExtractContext {
     const scene::World& world;
     const extract::ViewRequest& view;
@@ -98,14 +99,14 @@ struct ExtractContext {
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
     bool rasterHasParticles = false; ///< they are drawn into its colour
-    /// Changes whenever shadow maps of lights do. Shadows of movers with layers of their own are
-    /// not in it: ShadowConstants::tiles bounds them.
+    /// Changes whenever shadow maps of lights do. Shadows of movers with separate layers are not in
+    /// it: ShadowConstants::tiles bounds them.
     uint64_t shadowRevision = 0;
-    /// What is drawn over the effect's picture (PostEffect::askParticles); null: nothing.
+    /// Particles to draw over the effect's picture (PostEffect::askParticles); null: none.
     const extract::ParticleTables* particles = nullptr;
 };
 
-/// A raster of the world at another time. What it points to lives as long as the graph.
+/// A raster of the world at another time. Its pointers are valid as long as the graph.
 struct OtherRasterView {
     GBuffer gbuffer;
     const extract::ExtractedFrame* frame = nullptr;
@@ -120,13 +121,13 @@ struct PostContext {
     const gpu_scene::DeformedMeshes& shapes; ///< of `frame`
     const ViewFacts& facts;
     const GBuffer& gbuffer;
-    const graph::RayScene* rays;       ///< null where no effect asked for rays
-    const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
+    const graph::RayScene* rays;       ///< null if no effect requested rays
+    const graph::TimedRays* timedRays; ///< null if no effect requested time-sampled rays
     /// Drawn at the exposure's other end (ViewRequest::instant); null unless the effect reads it.
     const OtherRasterView* secondRaster = nullptr;
     const OtherRasterView* lastRaster = nullptr; ///< of the frame before; likewise
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display{};                ///< display-encoded, once somebody made it
+    graph::ImageHandle display{};                ///< display-encoded, once an effect has made it
     Intermediates& intermediates;
     graph::BufferHandle shadowMaps{};   ///< that the raster read; invalid: there are none
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
@@ -157,15 +158,15 @@ class PostEffect {
 
     [[nodiscard]] virtual std::string name() const = 0;
 
-    /// What its passes count as: PassOwner::Display for one that shows or keeps the picture,
-    /// PassOwner::Blur for none but what blurs by motion or by the lens.
+    /// Owner of its passes in statistics: PassOwner::Display for effects that show or store the
+    /// picture, PassOwner::Blur only for motion blur and lens blur.
     [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Other; }
 
     /// Pure: depends on the facts and the effect's settings only.
     [[nodiscard]] virtual core::Decision ask(const ViewFacts& facts) const = 0;
 
-    /// Whether it traces rays at the raster instant; counts when it runs. Pure, as ask(). Without a
-    /// reason it never does.
+    /// Returns whether this effect traces rays against the TLAS of the raster instant; only used
+    /// when it runs. Must have no side effects. Default: skipped without a reason.
     [[nodiscard]] virtual core::Decision askRays(const ViewFacts&) const { return {}; }
 
     /// The same for rays at any time of the exposure.
@@ -184,16 +185,16 @@ class PostEffect {
     /// The rasters of the context are not there yet.
     [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
 
-    /// Whether it tells the surfaces at an edge apart (GBuffer::edgeSurface): colours there are of
-    /// one surface then, and the mean of all samples else. Counts when it runs.
+    /// Returns whether it reads the surfaces at an edge separately (GBuffer::edgeSurface): colours
+    /// are then those of one surface, otherwise the mean of all samples. Only used when it runs.
     [[nodiscard]] virtual bool readsEdges() const { return false; }
 
     /// Whether particles are drawn over its picture, on their way through the exposure, and not
     /// into the raster: whether or not it runs.
     [[nodiscard]] virtual core::Decision askParticles(const ViewFacts&) const { return {}; }
 
-    /// Computes what the effect's passes need of the world; called only when ask() said run, for
-    /// all effects of the frame in their order, before any declares passes.
+    /// Reads the data for the effect's passes from the world; only called if ask() decided to run,
+    /// for all effects of the frame in order, before any declares passes.
     virtual void extract(ExtractContext&) {}
 
     /// Declares passes; called after extract().

@@ -136,7 +136,8 @@ void Renderer::declareTlas(
 core::Result<extract::ParticleTables> Renderer::extractParticles(
     const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
 ) const {
-    // Looks at motion see none, and effects keep nothing of what is drawn after them.
+    // Frames that measure motion draw no particles, and effects store no history of pictures with
+    // particles.
     if (request.isLook || (running.particles.run && !request.wantPicture))
         return extract::ParticleTables{};
     return extract::extractParticles(
@@ -275,7 +276,7 @@ core::Status Renderer::submitFrame(
     mPool.keepFor(request.view.width, request.view.height);
     auto plan = graph::execute(graph, slot.frame, mPool);
     if (!plan) {
-        slot.frameTlas.emplace(mDevice); // what was to be built was not
+        slot.frameTlas.emplace(mDevice); // the declared build did not run
         return plan.error();
     }
     slot.frame.submit(pending.tickets.semaphores);
@@ -338,7 +339,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     std::vector<shader::Geometry> deformed = scene.shapes.rows;
     const size_t firstDeformedGeometry = mScene.geometryRows().size() + deformed.size();
     if (moving) {
-        mScene.buildAllBlas(); // instances of deformed meshes ask for their masks
+        mScene.buildAllBlas(); // instances of deformed meshes need their masks
         const std::vector<shader::Geometry>& keyed =
             slot.timedScene->prepareDeformed(*moving, mScene);
         deformed.insert(deformed.end(), keyed.begin(), keyed.end());
@@ -413,8 +414,8 @@ void Renderer::declareEffects(
     };
     declareOwnParticles(0);
     for (RunningEffect& one : running.effects) {
-        // Not among the effect's own passes: what a frame takes now and then says nothing of the
-        // frames to come, which a budget is about.
+        // Not counted as the effect's own: the cost of an occasional frame does not predict later
+        // frames, which the budget is for.
         if (one.readsLastRaster && !last) {
             explainer.beginPasses(graph, one.effect->owner(), running.lastRaster.reason);
             last = declareOther(*slot.lastRaster, "last G-buffer");

@@ -46,23 +46,22 @@ struct FrameRequest {
     bool wantDisplay = false; ///< read the display-encoded picture back
     /// An effect shows the display-encoded picture: it is made although it is not read back.
     bool showsDisplay = false;
-    /// False: nothing of the frame is shown. Effects only keep what the next frame looks up.
+    /// False: the frame is not shown. Effects only store history for the next frame.
     bool wantPicture = true;
-    /// False: the frame after looks nothing up in this one. Effects keep what they kept before.
+    /// False: the next frame looks up nothing in this one. Effects preserve their earlier history.
     bool isFollowed = true;
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
     bool wantTrace = false; ///< copy what each pass writes to FrameResult::trace
-    /// False: effects need not count what they do on the device; FrameStatistics::counters may lack
-    /// it.
+    /// False: effects may skip their device counters; FrameStatistics::counters may lack them.
     bool wantCounters = true;
     /// Measure what a later frame may take as its lastBrightest (kBrightest), where there is a
     /// display-encoded picture.
     bool wantBrightest = false;
     /// ViewFacts::lastBrightest. A picture that depends on it depends on those drawn before.
     std::optional<float> lastBrightest{};
-    /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
+    /// Record the reason for each pass and for the frame's own work; effects always record theirs.
     bool wantReasons = false;
 };
 
@@ -108,9 +107,9 @@ struct LongestPath {
 /// in one order: with one frame in flight one by one, with more the CPU goes ahead of the GPU.
 class Renderer {
   public:
-    /// \param framesInFlight [1, gpu::kMaxFramesInFlight]. Each more has tables and acceleration
-    /// structures of its own, and tables are then written whole in each frame in which a row
-    /// changes
+    /// \param framesInFlight [1, gpu::kMaxFramesInFlight]. Each one has its own tables and
+    /// acceleration structures; with more than one, tables are written whole in each frame in which
+    /// a row changes
     Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight = 1);
     ~Renderer();
 
@@ -158,7 +157,7 @@ class Renderer {
         PostEffect* effect = nullptr;
         bool readsSecondRaster = false;
         bool readsLastRaster = false;
-        size_t firstPass = 0; ///< of its own: indices into Graph::passes()
+        size_t firstPass = 0; ///< its own passes: indices into Graph::passes()
         size_t endPass = 0;
     };
 
@@ -177,7 +176,7 @@ class Renderer {
         size_t particlesAt = 0;    ///< ... after as many of `effects`
     };
 
-    /// What one frame in flight has of its own.
+    /// Resources of one frame in flight.
     struct Slot {
         explicit Slot(gpu::Device& device);
         ~Slot();
@@ -185,7 +184,7 @@ class Renderer {
         gpu::Frame frame;
         Readback readback;
         FrameTables tables;
-        // Made anew once they were idle (releaseIdle).
+        // Recreated after releaseIdle().
         std::optional<gpu_scene::DeformationPass> deformation;
         std::optional<rays::FrameTlas> frameTlas;
         std::optional<rays::TimedScene> timedScene;
@@ -202,7 +201,7 @@ class Renderer {
         const FrameRequest& request;
         const ViewFacts& facts;
         extract::ExtractedFrame& frame;
-        const extract::TimedTables* moving; ///< null: no ray has a time of its own
+        const extract::TimedTables* moving; ///< null: no time-sampled rays
         const extract::ParticleTables& particles;
         math::dvec2 particleJitterPx; ///< of the colour that they are drawn on after effects
         RunningEffects& running;
@@ -234,11 +233,11 @@ class Renderer {
         PassTrace trace; ///< empty unless wanted
         std::vector<PendingEffect> effects;
         std::vector<PassOwner> owners; ///< per pass, in execution order
-        FrameResult result;            ///< what is known of it without the GPU
+        FrameResult result;            ///< results that do not depend on the GPU
     };
 
-    /// Draws the view's motion in a frame of its own. \return pixels from open to close, a number
-    /// per row, and the sky's behind them
+    /// Draws the view's motion in a separate frame. \return pixels from open to close, one number
+    /// per row, then the sky's
     core::Result<std::vector<float>>
     lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
     /// \param frame the context's, which gets its ExtractedFrame::layerRows
@@ -252,8 +251,7 @@ class Renderer {
     core::Decision decideLayer(
         const PostEffect& effect, const ExtractContext& context, extract::ExtractedFrame& frame
     ) const;
-    /// Extracts what the running effects look up beside the frame's own raster, and what they need
-    /// of the world themselves.
+    /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
         Slot& slot,
         ExtractContext& context,
@@ -305,7 +303,7 @@ class Renderer {
     uint32_t mNextSlot = 0;
     std::deque<PendingFrame> mPending;                 ///< oldest first
     std::optional<LongestMotion> mLongestMotion;       ///< made by the first cap
-    std::unique_ptr<ShadowPipelines> mShadowPipelines; ///< made by the first that asks for shadows
+    std::unique_ptr<ShadowPipelines> mShadowPipelines; ///< made on the first request for shadows
     IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the effects of a frame ask for beside the frame's own raster, and what goes once none did
-// for a while.
+// Joins the requests of a frame's effects, and frees resources that none requested for a while.
 #include "engine/core/check.h"
 #include "engine/core/words.h"
 #include "engine/extract/blended_layer.h"
@@ -12,7 +11,7 @@ namespace shutter::render {
 
 namespace {
 
-/// What all effects together want: the first that wants it, or the last that says why not.
+/// Joins decisions of effects: the first that runs, or else the last reason to skip.
 void join(core::Decision& all, const std::string& effect, const core::Decision& own) {
     if (!all.run && !own.reason.empty())
         all = {own.run, effect + ": " + own.reason};

@@ -68,7 +68,7 @@ class TableWriter {
     std::vector<std::byte> mBytes;
 };
 
-// Each map has both rows; the light's kind says which one is read.
+// Each map has both rows; the light's kind selects the one that is read.
 shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye) {
     shader::ShadowMap row{};
     row.clipFromEye = math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
@@ -167,8 +167,8 @@ class ShadowRecorder {
 /// Layers that there is room for as soon as there is one.
 constexpr uint64_t kLeastLayers = 16;
 
-/// Texels of the plan's maps, with room for more layers: movers come and go, and each time that the
-/// buffer is made anew, all maps are drawn again.
+/// Texels of the plan's maps, with spare room for layers: each time the buffer is recreated for a
+/// new mover, all maps are drawn again.
 uint64_t countRoom(const extract::ShadowPlan& plan) {
     uint64_t layers = 0;
     uint64_t largest = 0;
@@ -409,7 +409,8 @@ graph::BufferHandle ShadowMaps::declare(
                 copy.imageOffset = {drawn.place.offset.x, drawn.place.offset.y, 0};
                 copy.imageExtent = {map.sizePx, map.sizePx, 1};
                 copies.push_back(copy);
-                // Only what is recorded is kept: a frame that reads no shadows has no such pass.
+                // Only recorded passes update the cache: a frame that reads no shadows has no such
+                // pass.
                 if (drawn.map < mPlan.lightMapCount)
                     mKept[drawn.map] = describe(map);
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps on the device: those of lights are kept and drawn anew only when something in them
-// has changed, movers' layers are drawn each frame.
+// Shadow maps on the device: lights' maps are cached and redrawn only when something in them has
+// changed; movers' layers are drawn each frame.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -29,15 +29,15 @@ class ShadowMaps {
   public:
     explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
 
-    /// Makes the tables; the frame's constants get their address, and the flag that says whether
-    /// lights cast shadows. Comes before the constants are written. Error: the plan's maps do not
-    /// fit an image of the device.
+    /// Makes the tables; stores their address and the flag for shadows in the frame's constants.
+    /// Must be called before the constants are written. Error: the plan's maps do not fit an image
+    /// of the device.
     core::Status prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame);
 
-    /// Declares the passes of what was prepared: none where there are no shadows. `frame` and
-    /// `scene` must live until they have been recorded.
+    /// Declares the passes of the prepared plan: none without shadows. `frame` and `scene` must
+    /// live until they have been recorded.
     /// \param shapes vertices of deformed meshes; invalid: there are none
-    /// \return what shading reads with Access::ShaderRead; invalid: there are no shadows
+    /// \return the buffer that shading reads with Access::ShaderRead; invalid: there are no shadows
     [[nodiscard]] graph::BufferHandle declare(
         graph::Graph& graph,
         const ShadowPipelines& pipelines,
@@ -76,7 +76,7 @@ class ShadowMaps {
     VkExtent2D placeMaps();
     /// Places those of mDrawn. \return the size of the image
     VkExtent2D placeDrawn();
-    /// Places them in rows of that width, or of one map that is wider. \return what they take
+    /// Places them in rows of that width, or of the width of the widest map. \return the extent
     VkExtent2D placeInRows(uint32_t width);
     /// Null: no map has to be drawn. It is none of the graph's own images: those share their memory
     /// by plan, and each size of this one would make another plan.

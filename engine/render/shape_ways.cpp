@@ -153,7 +153,7 @@ class ShapeWays::Planner {
         forEachGeometry(mLayout, way.mesh, [&](uint32_t geometry, uint32_t index) {
             const extract::SceneLayout::GeometryInfo& info = mLayout.geometries[geometry];
             const uint64_t offset = std::exchange(before, before + info.vertexCount);
-            // What is blended is no surface of the raster.
+            // Blended surfaces are not in the raster.
             if (info.alphaMode == scene::AlphaMode::Blend || info.indexCount == 0)
                 return;
             Draw draw{geometry, {}};
@@ -292,7 +292,7 @@ graph::ImageHandle ShapeWays::declareLayer(
                 bindings.sampled(context.resources.view(surface), mDevice.nearestSampler());
                 const VkCommandBuffer commands = context.commands;
                 vkCmdBindIndexBuffer(commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
-                // What the raster does not show is told by its depth.
+                // Surfaces that the raster does not show are rejected by depth.
                 vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
                 vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
                 bool isBound = false;

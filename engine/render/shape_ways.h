@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of where what deforms in a raster is seen in the course of the exposure, pixel by pixel
-// (common/pixel_way.glsl), for effects that look things up in rasters.
+// Per-pixel motion images of deforming entities of a raster over the exposure
+// (common/pixel_way.glsl), for effects that look up surfaces in rasters.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -25,10 +25,10 @@ struct ShapedFrame {
     const gpu_scene::DeformedMeshes* shapes = nullptr;
 };
 
-/// What deforms in one raster. It must live until the frame is recorded.
+/// Deforming entities of one raster. Must live until the frame is recorded.
 struct ShapeWayLayer {
     std::span<const extract::ShapeWay> ways;
-    ShapedFrame raster; ///< drawn in this frame; null: the one that `record` tells of
+    ShapedFrame raster; ///< drawn in this frame; null: the one in `record`
     const extract::RasterRecord* record = nullptr;
 };
 

@@ -36,7 +36,7 @@ struct Primitive {
     std::vector<math::vec2> uv0;
     std::vector<math::vec2> uv1;
     std::vector<math::vec4> colors;        ///< linear RGBA factor
-    std::vector<uint32_t> indices;         ///< three a triangle, each below positions.size()
+    std::vector<uint32_t> indices;         ///< three per triangle, each below positions.size()
     uint32_t influenceCount = 0;           ///< joints a vertex: 0 (no skin), or a multiple of 4
     std::vector<uint16_t> joints;          ///< influenceCount a vertex: index into Skinned::joints
     std::vector<float> weights;            ///< as many; [0, 1], the sum of a vertex's is 1
@@ -48,7 +48,7 @@ struct Mesh {
     std::string name;
     std::vector<Primitive> primitives; ///< may be empty (a mesh of points or lines only)
     math::Bounds bounds;               ///< of all positions, object space, undeformed
-    std::vector<float> morphWeights;   ///< at rest, one a morph target
+    std::vector<float> morphWeights;   ///< at rest, one per morph target
 };
 
 /// 8-bit RGBA, row 0 at the top.
@@ -81,7 +81,7 @@ struct TextureSlot {
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 
-/// How a surface of AlphaMode::Blend joins what lies behind it.
+/// How a surface of AlphaMode::Blend is combined with its background.
 enum class BlendMode : uint8_t {
     Over,
     Add,           ///< adds colour times alpha, hides nothing
@@ -119,7 +119,7 @@ struct AnimationChannel {
     AnimationPath path = AnimationPath::Translation;
     Interpolation interpolation = Interpolation::Linear;
     std::vector<float> times; ///< seconds, strictly increasing, at least one
-    /// One a key, three a key for CubicSpline (in-tangent, value, out-tangent). Rotations are
+    /// One value per key; three (in-tangent, value, out-tangent) for CubicSpline. Rotations are
     /// quaternions x, y, z, w; the others use x, y, z.
     std::vector<math::vec4> values;
 };
@@ -141,10 +141,10 @@ struct AnimationClip {
     std::vector<WeightChannel> weightChannels;
 };
 
-/// Joints that deform a mesh; whose entities they are says Skinned.
+/// Joints that deform a mesh; Skinned lists the joints' entities.
 struct Skin {
     std::string name;
-    std::vector<math::dmat4> jointFromBind; ///< inverse bind matrices, one a joint; at least one
+    std::vector<math::dmat4> jointFromBind; ///< inverse bind matrices, one per joint; at least one
 };
 
 struct Assets {

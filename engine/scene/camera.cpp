@@ -85,7 +85,7 @@ bool mayZoom(const World& world, ecs::Entity camera) {
 namespace {
 
 constexpr double kYFov = std::numbers::pi / 4.0;
-constexpr double kElevation = std::numbers::pi / 12.0; // the camera looks down by this angle
+constexpr double kElevation = std::numbers::pi / 12.0; // the camera's pitch below the horizon
 constexpr double kFramingMargin = 1.1;  // of the distance, so that nothing touches the border
 constexpr double kNearShare = 1e-3;     // of the distance; far below the margin
 constexpr double kSmallestExtent = 1.0; // metres, for an empty scene and a point

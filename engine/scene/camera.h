@@ -32,7 +32,7 @@ struct LensMotion {
     PathEase ease = PathEase::None;
 };
 
-/// One sentence that names the key and what is wrong with it.
+/// Error: one sentence that names the key and the fault.
 [[nodiscard]] core::Status validateLens(const LensMotion& lens);
 
 /// True when the lens jumps after `from` and not after `to`.
@@ -56,10 +56,10 @@ ecs::Entity addFramingCamera(World& world, double aspect, double seconds);
 /// Rigid matrix (worldFromRigid) of the camera at a time, seconds.
 using PoseAt = std::function<math::dmat4(double seconds)>;
 
-/// Whether a camera makes a cut that nobody announced: true when the pose jumps between `from` and
-/// `to` by the detection's angle or distance or more. Intervals that change so much are halved 30
-/// times: the change of a smooth motion shrinks with the interval, a jump does not. Poses that are
-/// not finite are ignored. False when detection is off.
+/// Detects a camera cut without an event: true when the pose jumps between `from` and `to` by the
+/// detection's angle or distance or more. Intervals that change so much are halved 30 times: the
+/// change of a smooth motion shrinks with the interval, a jump does not. Poses that are not finite
+/// are ignored. False when detection is off.
 [[nodiscard]] bool
 findsCameraCut(const PoseAt& poseAt, double from, double to, const CutDetection& detection);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When clips may move things without a way in between: at a key of STEP, between two keys at nearly
-// the same time, and where a clip that loops begins anew.
+// Times at which clips may make entities jump: at keys of STEP interpolation, between two keys at
+// nearly the same time, and where a clip loops.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -27,11 +27,11 @@ struct Jump {
 
 class ClipJumps {
   public:
-    /// Most rounds of a clip in `span` that are looked at: of one with more, nothing is.
+    /// Maximum number of loops of a clip within `span`; clips with more are ignored.
     static constexpr double kMostRounds = 64.0;
 
-    /// Looks once at all that clips drive.
-    /// \param span seconds; both ends are looked at
+    /// Collects the jumps of all entities that clips drive.
+    /// \param span seconds; both ends included
     /// \param longestSeconds between two keys that count as one place in time
     ClipJumps(const World& world, const TimeSpan& span, double longestSeconds);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Components: plain data on entities of ecs::Registry. What a field means, its unit and range
-// stand on its line.
+// Components: plain data on entities of ecs::Registry. Each field's line gives its meaning, unit
+// and range.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -69,7 +69,7 @@ struct Skinned {
 
 /// Weights of the morph targets of this entity's mesh.
 struct MorphWeights {
-    std::vector<float> weights; ///< at rest, one a morph target
+    std::vector<float> weights; ///< at rest, one per morph target
     std::vector<Animated::Channel>
         channels; ///< into AnimationClip::weightChannels; later clips win
 };
@@ -112,9 +112,9 @@ struct VertexWaves {
 
 enum class CameraKind : uint8_t { Perspective, Orthographic };
 
-/// Looks down its entity's -Z with +Y up.
+/// A camera with forward -Z and up +Y in its entity's space.
 struct Camera {
-    std::string name; ///< of the camera itself; its entity has a Name of its own; may be empty
+    std::string name; ///< of the camera itself, independent of its entity's Name; may be empty
     CameraKind kind = CameraKind::Perspective;
     double yFov = 0.8; ///< perspective: vertical field of view of its frame, radians, (0, pi)
     /// Perspective: width / height of its frame, above 0; nothing: that of the picture.
@@ -168,14 +168,14 @@ struct CameraShutter {
     ShutterResponse response{};
     double cameraRotationScale = 1.0;    ///< of the blur by the camera's turning, [0, 2]
     double cameraTranslationScale = 1.0; ///< of the blur by its displacement, [0, 2]
-    double objectScale = 1.0;            ///< of the blur by what moves in the world, [0, 2]
+    double objectScale = 1.0;            ///< scale of the blur of movers, [0, 2]
     /// Longest way across the picture, percent of its width, 0 or more (MotionCap).
     double maxBlurPercent = std::numeric_limits<double>::infinity();
     CutDetection cuts{};
 };
 
-/// Sits on the camera's entity; without it, or with fStop 0, the camera is a pinhole. lens.h says
-/// what it does to the picture.
+/// Sits on the camera's entity; without it, or with fStop 0, the camera is a pinhole. lens.h
+/// defines its effect on the picture.
 struct CameraLens {
     double fStop = 0.0; ///< focal length by width of the opening, [0.01, 1e9]; 0: a pinhole
     double focusDistance = 10.0; ///< metres along the axis, [1e-4, 1e9]
@@ -219,7 +219,7 @@ struct Teleported {
     double seconds = 0.0;
 };
 
-/// On a camera: what it shows from this time on has nothing to do with what it showed before.
+/// On a camera: from this time on its picture is unrelated to the earlier one.
 struct CameraCut {
     double seconds = 0.0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes around skinned and morphed meshes that need no look at the vertices.
+// Boxes around skinned and morphed meshes, computed without their vertices.
 #pragma once
 
 #include "engine/math/bounds.h"
@@ -25,10 +25,11 @@ struct PoseReach {
 
 /// Holds every vertex of the pose in the space of worldFromObject, for any weights of morph targets
 /// (also outside of [0, 1]). Not the smallest such box: each joint moves the box of its vertices,
-/// which morph targets have grown. Costs a box a joint and one a target. 1e-6 of the coordinates is
-/// added, because skin weights sum to 1 in single precision only; without a deformation the result
-/// is `rest` itself. Empty for a mesh without vertices and for weights that are not finite; a joint
-/// whose matrix is not finite counts as one that deforms nothing, for what it deforms is nowhere.
+/// which morph targets have grown. Costs one box per joint and one per target. 1e-6 of the
+/// coordinates is added, because skin weights sum to 1 in single precision only; without a
+/// deformation the result is `rest` itself. Empty for a mesh without vertices and for weights that
+/// are not finite; a joint whose matrix is not finite is ignored, since vertices that it deforms
+/// are not drawn.
 [[nodiscard]] math::Bounds
 computeDeformedBounds(const PoseReach& reach, const Deformation& deformation);
 

@@ -2,8 +2,8 @@
 // Light that comes from everywhere, as pictures of all directions. Plain data in main memory.
 //
 // The pictures are equirectangular: u runs once round the horizon, v from the zenith (0) to the
-// nadir (1). The middle of a picture lies towards -Z, where an unturned camera looks; +X lies a
-// quarter of its width to the right.
+// nadir (1). The middle of a picture lies towards -Z, the forward direction of an unrotated camera;
+// +X lies a quarter of its width to the right.
 #pragma once
 
 #include "engine/math/math.h"
@@ -21,10 +21,10 @@ struct DirectionPicture {
     std::vector<uint16_t> rgba; ///< half floats, width * height * 4
 };
 
-/// What a scene is lit by beside its own lights. Made by engine/environment.
+/// Image-based light of a scene, in addition to its lights. Made by engine/environment.
 struct Environment {
-    /// What is seen where nothing is: at least one, each the one before at half its width and
-    /// height (rounded down, at least 1).
+    /// The background: a pyramid of at least one level, each half as wide and high as the one
+    /// before (rounded down, at least 1).
     std::vector<DirectionPicture> background;
     /// What a surface mirrors: at least one, each half as wide and high as the one before. Number i
     /// is filtered for the perceptual roughness i / (number of them - 1), as if n = v = r (Karis

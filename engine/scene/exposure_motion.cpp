@@ -161,12 +161,12 @@ std::vector<double> ExposureMotion::comingsOf(ecs::Entity entity) const {
 }
 
 double ExposureMotion::secondsAt(double s) const {
-    // Not one rounding beside it: the raster image and a still one of the same time are the same.
+    // Exact: the raster image equals a still of the same time.
     return s == mExposure.rasterTime ? mExposure.raster : mExposure.at(s);
 }
 
 double ExposureMotion::scaleTime(double seconds, double scale) const {
-    // Not one rounding beside it either: a scale of 1 changes no bit.
+    // Exact: a scale of 1 changes no bit.
     return scale == 1.0 ? seconds : mFrame.raster + scale * (seconds - mFrame.raster);
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Motion as one exposure of one camera shows it: the one place that motion vectors, rays and ground
-// truth ask where something is at a shutter time. It honours the artist's scales (CameraShutter,
-// MotionBlur) and what has no past (history.h).
+// Motion during one exposure of one camera: the single source of placements at shutter times for
+// motion vectors, rays and ground truth. Applies the artist's scales (CameraShutter, MotionBlur)
+// and entities without a past (history.h).
 //
-// A scale k (a cap's share is one) runs time k times as fast away from the raster instant r: what
-// is scaled is at time t where it would be at r + k (t - r). At the raster instant all is where it
-// is.
+// A scale k (a cap's share is one) scales time around the raster instant r: a scaled entity is at
+// time t where it would be at r + k (t - r). At the raster instant nothing changes.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -31,7 +30,7 @@ class ExposureMotion {
 
     [[nodiscard]] const ExposureInterval& exposure() const { return mExposure; }
 
-    /// Nothing has a past in this frame: all stands as at the raster instant.
+    /// Nothing has a past in this frame: everything is static, as at the raster instant.
     [[nodiscard]] bool isCut() const { return mIsCut; }
 
     /// Whether the entity is hidden as long as the exposure lasts: a part of one is asked when it
@@ -60,9 +59,9 @@ class ExposureMotion {
     [[nodiscard]] math::dmat4 worldFromEntity(ecs::Entity entity, double s) const;
     /// The same of a light (motion.h, worldFromLight).
     [[nodiscard]] math::dmat4 worldFromLight(ecs::Entity entity, double s) const;
-    /// From the space that deformed vertices are given in (deformation.h), where the picture has
-    /// it: an entity of its own scale (MotionBlur) rides with the camera for the part that is not
-    /// its. In a part of an exposure (takePart()) it is singular while the entity is not there.
+    /// From the space of deformed vertices (deformation.h), as seen in the picture: an entity with
+    /// a MotionBlur scale follows the camera for the remaining share of the motion. In a part of an
+    /// exposure (takePart()) it is singular while the entity is hidden.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
     /// Deformation::objectFromBind of one joint of a skinned entity.
@@ -115,12 +114,12 @@ class ExposureMotion {
     ExposureTimes mFrame; ///< of the frame, of whose exposure mExposure may be a part
     TimeSpan mReach;
     TimeSpan mSpan;             ///< the frame and all times that scales reach
-    bool mAnyEvents = false;    ///< false: isHeld() needs not look
+    bool mAnyEvents = false;    ///< false: isHeld() needs no search
     bool mAnyBlurScale = false; ///< false: no entity has a MotionBlur
-    bool mAnyHidden = false;    ///< false: isHidden() needs not look
+    bool mAnyHidden = false;    ///< false: isHidden() needs no search
     bool mIsCut = false;
     bool mHasComings = false;
-    double mLastComing = 0.0; ///< what appears after it stands for the whole exposure
+    double mLastComing = 0.0; ///< entities that appear after it are static for the whole exposure
 };
 
 } // namespace shutter::scene

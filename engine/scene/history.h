@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events that end a thing's past. A game tells them with the time at which they happen; what has no
+// Events that end an entity's past. The game reports them with their times; an entity without a
 // past within a frame has no motion of its own in it (exposure_motion.h).
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace shutter::scene {
 
-/// Times after `after` and not after `until`, seconds. What happens at `after` itself is over: all
-/// that the span sees comes later.
+/// Times after `after` and not after `until`, seconds. Half-open interval (after, until]: an event
+/// at `after` is over: all that the span sees comes later.
 struct TimeSpan {
     double after = 0.0;
     double until = 0.0;
@@ -23,12 +23,12 @@ struct TimeSpan {
 };
 
 /// Puts the entity at `transform` of its parent's space at `seconds` (finite); its velocities go on
-/// from there. Properties that a clip or a path tells still win: put such an entity under a parent
-/// and teleport that.
+/// from there. Properties driven by a clip or a path still override it: put such an entity under a
+/// parent and teleport the parent.
 void teleport(World& world, ecs::Entity entity, const math::Transform& transform, double seconds);
 /// As teleport(), of a camera, and everything is static in that frame.
 void cutTo(World& world, ecs::Entity camera, const math::Transform& transform, double seconds);
-/// The picture changes to this camera, or what it shows is new in another way.
+/// Declares a cut to this camera, or to an unrelated view of it.
 void cut(World& world, ecs::Entity camera, double seconds);
 /// The entity was made at `seconds`.
 void appear(World& world, ecs::Entity entity, double seconds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values between keys of rising times: what paths and lenses have in common. A key has `seconds`
-// and `cut`; a shot is what lies between two cuts.
+// Interpolation between keys of rising times, shared by paths and lenses. A key has `seconds` and
+// `cut`; a shot is the span between two cuts.
 #pragma once
 
 #include "engine/scene/animation.h"

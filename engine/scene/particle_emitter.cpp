@@ -174,7 +174,7 @@ class Lister {
         : mEmitter(emitter), mOpen(open), mClose(close), mSpeed(glm::length(emitter.velocity)),
           mAxis(mSpeed > 0.0 ? emitter.velocity / mSpeed : dvec3(0.0, 1.0, 0.0)) {}
 
-    /// \return false: there are too many to look at
+    /// \return false: there are too many to test
     bool add(const EmissionSpan& span) {
         if (!(span.perSecond > 0.0))
             return true;
@@ -182,7 +182,7 @@ class Lister {
         const double last = std::min(mClose, span.untilSeconds);
         if (last < span.fromSeconds || span.untilSeconds < oldest)
             return true;
-        // One more on either side, for what is rounded: each is tested by itself.
+        // One more on either side because of rounding: each is tested individually.
         const double first =
             std::max(std::floor((oldest - span.fromSeconds) * span.perSecond) - 1.0, 0.0);
         const double end = std::floor((last - span.fromSeconds) * span.perSecond) + 2.0;
@@ -213,7 +213,7 @@ class Lister {
     [[nodiscard]] std::vector<ParticleBirth> take() { return std::move(mLiving); }
 
   private:
-    /// A spread leaves at least half of those looked at alive.
+    /// With any spread, at least half of the tested particles are alive.
     static constexpr double kMaxLooks = 4.0 * kMaxParticles;
 
     void addBirth(double seconds, Dice& dice) {

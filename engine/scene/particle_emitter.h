@@ -18,8 +18,8 @@ namespace shutter::scene {
 /// Most particles that a picture shows.
 inline constexpr size_t kMaxParticles = 65536;
 
-/// A steady emission. What it emits is known by `fromSeconds`: spans that come or go beside it
-/// change none of it.
+/// A steady emission, identified by `fromSeconds`: adding or removing other spans does not change
+/// its particles.
 struct EmissionSpan {
     double fromSeconds = 0.0;  ///< within 1e9
     double untilSeconds = 1e9; ///< above fromSeconds, within 1e9
@@ -33,11 +33,11 @@ struct EmissionBurst {
 };
 
 enum class ParticleBlend : uint8_t {
-    Alpha, ///< covers what lies behind it
-    Add,   ///< is light alone: hides nothing
+    Alpha, ///< covers the background
+    Add,   ///< adds light and hides nothing
 };
 
-/// Component: emits where its entity is. A particle keeps to the world from its birth on.
+/// Component: emits where its entity is. After its birth, a particle moves in world space.
 struct ParticleEmitter {
     std::vector<EmissionSpan> spans;   ///< no two begin at the same time
     std::vector<EmissionBurst> bursts; ///< no two at the same time
@@ -54,7 +54,7 @@ struct ParticleEmitter {
     double sizeDeath = 0.1;            ///< the same at death; linear between
     double spin = 0.0;                 ///< fastest turn of a picture, either way, rad/s, [0, 1e4]
     /// At birth, half of the life and death, linear between: linear RGB, [0, 1000], and opacity,
-    /// [0, 1]. A lit one's colour is what it sends back of light.
+    /// [0, 1]. For lit particles the colour is the reflectance.
     std::array<math::vec4, 3> colors{
         math::vec4(1.0f), math::vec4(1.0f), math::vec4(1.0f, 1.0f, 1.0f, 0.0f)};
     AssetIndex texture = kNone; ///< of Texture::onParticles; kNone: round, soft towards the rim
@@ -64,7 +64,7 @@ struct ParticleEmitter {
     uint32_t seed = 0; ///< of all that is random
 };
 
-/// One sentence that names the field and what is wrong with it.
+/// Error: one sentence that names the field and the fault.
 [[nodiscard]] core::Status validateEmitter(const ParticleEmitter& emitter);
 
 /// Seconds that the longest life may last.
@@ -75,7 +75,7 @@ struct ParticleBirth {
     double seconds = 0.0;
     double lifeSeconds = 0.0;
     math::dvec3 place{0.0};    ///< metres
-    math::dvec3 velocity{0.0}; ///< m/s, without what it inherits
+    math::dvec3 velocity{0.0}; ///< m/s, without the inherited velocity
     double angle = 0.0;        ///< of its picture, radians
     double spin = 0.0;         ///< rad/s
 };

@@ -67,9 +67,9 @@ dquat sampleRotation(const PathMotion& path, const KeyPlace& place) {
     }));
 }
 
-// Which way is up for a path that looks at places, straight down and up included.
+// Orientation of a path with targets, straight down and up included.
 
-/// Directions closer than this to `up`, sine of the angle, have no upright of their own.
+/// Directions closer than this to `up`, sine of the angle, have no defined upright.
 constexpr double kLeastSine = 1.0e-6;
 constexpr int kBisections = 60;
 
@@ -87,14 +87,14 @@ bool isUpright(const dvec3& direction, const dvec3& up) {
     return glm::length(glm::cross(up, direction)) > kLeastSine * glm::length(direction);
 }
 
-/// Where a view looks, and which way that is over the ground; unit vectors, or 0: not known.
+/// The direction of a view and its heading over the ground; unit vectors, or 0: unknown.
 struct Look {
     dvec3 direction{0.0};
     dvec3 heading{0.0}; ///< at right angles to `up`
 
     [[nodiscard]] bool isWhole() const { return direction != dvec3(0.0) && heading != dvec3(0.0); }
 
-    /// Takes what it lacks from another.
+    /// Fills its unknown vectors from another.
     void fill(const Look& other) {
         if (direction == dvec3(0.0))
             direction = other.direction;
@@ -117,7 +117,7 @@ dmat3 roll(const dmat3& axes, double radians) {
     return {axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]};
 }
 
-/// The direction to look in between two keys, a polynomial of the share of the way.
+/// The direction to the target between two keys, a polynomial of the share of the span.
 class Span {
   public:
     Span(const PathMotion& path, const KeyShot& shot, size_t key, const dvec3& up) : mUp(up) {
@@ -227,7 +227,7 @@ class Span {
     dvec3 mAcross{0.0};
 };
 
-/// The looks of one path in one shot.
+/// The view directions of one path in one shot.
 class Looks {
   public:
     Looks(const PathMotion& path, const KeyShot& shot)
@@ -237,7 +237,7 @@ class Looks {
 
     [[nodiscard]] Span span(size_t key) const { return {mPath, mShot, key, mUp}; }
 
-    /// As the path comes to a key; what is static counts as the time before it.
+    /// On arrival at a key; a static path uses the direction before it.
     [[nodiscard]] Look before(size_t key) const {
         Look look;
         for (size_t i = key; i > mShot.first && !look.isWhole(); --i)
@@ -294,7 +294,7 @@ double findRoll(const Looks& looks, const Span& span, const KeyPlace& place, boo
     return radians == 0.0 ? 0.0 : at(place.share);
 }
 
-/// Where `direction` alone does not tell how the view stands.
+/// Completes a view whose `direction` does not determine its roll.
 Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direction) {
     Look look{normalizeOrZero(direction), dvec3(0.0)};
     if (place.share > 0.0)
@@ -308,7 +308,8 @@ Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direct
     if (isUpright(look.direction, looks.up()))
         look.heading = flatten(look.direction, looks.up());
     if (look.heading == dvec3(0.0)) {
-        // The axis that `up` is farthest from is above: what lies below is ahead, and the reverse.
+        // Up is the axis farthest from `up`: a downward view then has its heading ahead, and the
+        // reverse.
         const dvec3 other =
             std::abs(look.direction.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
         look.heading = -flatten(other, looks.up()) * glm::dot(look.direction, looks.up());
@@ -316,16 +317,16 @@ Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direct
     return look;
 }
 
-/// Rotation that looks with -Z along `direction`, with +Y towards the path's `up`.
+/// Rotation with -Z along `direction` and +Y towards the path's `up`.
 ///
-/// Straight down and up (to 1e-6 of the angle) `up` says nothing: there the view is turned as the
-/// path comes to it or, at the beginning of a shot, as it leaves. A path that leaves in another
-/// direction than it came, as one that flies over its target does, therefore does not turn over: it
-/// goes on as it came, and rolls until it is upright at the next key. Where it never is anything
-/// else, +Y is the axis that `up` is farthest from. A place to look at that is the camera's own is
-/// looked at along the way that it is come to, likewise.
+/// Straight down and up (to 1e-6 of the angle) `up` gives no roll: the view then has the roll of
+/// the path's arrival or, at the beginning of a shot, of its departure. So a path that leaves in
+/// another direction than it arrived, such as one that flies over its target, does not flip: it
+/// continues as it arrived, and rolls until it is upright at the next key. If the view is vertical
+/// throughout, +Y is the axis that `up` is farthest from. A target at the camera's own position is
+/// handled likewise: the view direction is that of arrival.
 /// \param place in the path
-/// \param direction from the camera to what it looks at there, any length
+/// \param direction from the camera to its target there, any length
 dquat lookAlongPath(const PathMotion& path, const KeyPlace& place, const dvec3& direction) {
     const Looks looks(path, place.shot);
     const dvec3& up = looks.up();

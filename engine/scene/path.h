@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths through keys: the way of a camera or of anything else, one more source of motion.
+// Paths through keys for cameras and other entities: one more source of motion.
 #pragma once
 
 #include "engine/core/result.h"
@@ -16,26 +16,26 @@ struct PathKey {
     double seconds = 0.0;
     math::dvec3 position{0.0};           ///< metres
     std::optional<math::dquat> rotation; ///< unit; all keys of a path have one or none has
-    std::optional<math::dvec3> lookAt;   ///< place to look at with -Z; likewise
+    std::optional<math::dvec3> lookAt;   ///< target that -Z points at; likewise
     bool cut = false; ///< the path jumps to this key: until then it stays at the key before
 };
 
-/// Component: replaces LocalTransform's translation and, where the keys tell one, its rotation;
-/// scale stays. Wins over Animated; velocities are added; no say over a LocalMatrix. Before the
-/// first key and after the last the entity stays there. A cut on a camera's path, or on its
-/// parents', is a camera cut, on any other entity it is a teleport (history.h). A shot is what lies
-/// between two cuts.
+/// Component: replaces LocalTransform's translation and, if the keys have rotations or targets, its
+/// rotation, but not its scale. Overrides Animated; velocities are added; does not affect a
+/// LocalMatrix. Before the first key and after the last the entity stays there. A cut on a camera's
+/// path, or on its parents', is a camera cut, on any other entity it is a teleport (history.h). A
+/// shot is the span between two cuts.
 struct PathMotion {
     std::vector<PathKey> keys; ///< one or more, at rising times
     PathInterpolation interpolation = PathInterpolation::CatmullRom;
     PathEase ease = PathEase::None;
-    math::dvec3 up{0.0, 1.0, 0.0}; ///< what is above where keys look at a place
+    math::dvec3 up{0.0, 1.0, 0.0}; ///< up direction for keys with lookAt
 };
 
-/// One sentence that names the key and what is wrong with it.
+/// Error: one sentence that names the key and the fault.
 [[nodiscard]] core::Status validatePath(const PathMotion& path);
 
-/// `rest` with what the path tells replaced. The path must be valid.
+/// Returns `rest` with the properties that the path drives replaced. The path must be valid.
 /// \param seconds finite
 [[nodiscard]] math::Transform
 samplePath(const PathMotion& path, const math::Transform& rest, double seconds);

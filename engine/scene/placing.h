@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What tells where an entity is, what moves it, how its blur is scaled and since when it is there.
-// Whoever keeps what follows from these watches them for changes (extract::WorldWatch).
+// The components that determine an entity's placement, motion, blur scale and time of appearance.
+// Caches of derived data watch them for changes (extract::WorldWatch).
 #pragma once
 
 #include "engine/ecs/registry.h"
@@ -26,8 +26,8 @@ using PlacingComponents = ComponentList<
     MotionBlur,
     Appeared>;
 
-/// Null: the entity has none. Functions of placement read with it, so that none of them reads what
-/// nobody watches.
+/// Null: the entity has none. Functions of placement read components through it, so that none of
+/// them reads an unwatched one.
 template <class T>
 requires PlacingComponents::holds<T>
 

@@ -40,7 +40,7 @@ PathKey makeKey(const Transform& pose, double seconds, bool cut) {
     return key;
 }
 
-/// Keys that no time from `horizon` on asks for: all before the last one at or before it.
+/// Counts keys that no time from `horizon` on needs: all before the last one at or before it.
 size_t countOutdated(const std::vector<PathKey>& keys, double horizon) {
     const auto later =
         std::upper_bound(keys.begin(), keys.end(), horizon, [](double seconds, const PathKey& key) {
@@ -52,7 +52,8 @@ size_t countOutdated(const std::vector<PathKey>& keys, double horizon) {
 
 void dropOutdated(std::vector<PathKey>& keys, double horizon) {
     const size_t outdated = countOutdated(keys, horizon);
-    // Not one by one: what is kept moves to the front once in as many steps as there are keys kept.
+    // Erased in batches: the remaining keys move to the front once in as many steps as there are
+    // keys.
     if (2 * outdated + 1 >= keys.size() && outdated > 0)
         keys.erase(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(outdated));
     // At rest for the whole reach.
@@ -61,8 +62,8 @@ void dropOutdated(std::vector<PathKey>& keys, double horizon) {
         keys.pop_back();
 }
 
-/// How far back somebody asks where the entity was: what it emitted, or what it carries did, keeps
-/// to where that was born.
+/// Returns how far back the entity's placement is needed: particles start from their emitter's
+/// placement at their birth.
 double findReach(const World& world, ecs::Entity entity) {
     double longest = 0.0;
     for (auto [emitting, emitter] : world.registry.view<ParticleEmitter>()) {

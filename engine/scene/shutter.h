@@ -22,20 +22,19 @@ namespace shutter::scene {
 /// Duration of a single frame that belongs to no sequence.
 inline constexpr double kStillFrameSeconds = 1.0 / 24.0;
 
-/// How much of its motion a frame keeps where CameraShutter::maxBlurPercent caps it.
+/// Shares of motion that remain where CameraShutter::maxBlurPercent caps it.
 ///
-/// What moves too far for the cap moves less as a whole, as if its exposure were shorter:
-/// everything static in the world together with the camera, each mover by itself. Clamping each
-/// pixel's motion vector instead would give motion that no rigid body has, which neither rays nor
-/// ground truth could reproduce.
+/// Motion beyond the cap is scaled as a whole, as if its exposure were shorter: everything static
+/// in the world together with the camera, and each mover individually. Clamping each pixel's motion
+/// vector instead would give motion that no rigid body has, which neither rays nor ground truth
+/// could reproduce.
 struct MotionCap {
-    /// Share of its motion, [0, 1], that the camera keeps, and everything without a share of its
-    /// own.
+    /// Share of its motion, [0, 1], for the camera and for everything without an individual share.
     double camera = 1.0;
     /// Movers' shares of their motion on the screen, [0, 1], by rising entity index.
     std::vector<std::pair<ecs::Entity, double>> movers;
 
-    /// Null: it has no share of its own.
+    /// Null: it has no individual share.
     [[nodiscard]] const double* findMover(ecs::Entity entity) const {
         const auto at = std::lower_bound(
             movers.begin(),
@@ -75,7 +74,7 @@ struct ExposureInterval {
     /// it.
     std::optional<ExposureTimes> whole{};
 
-    /// Returns the whole exposure, by which events, scales and the frame's number go.
+    /// Returns the whole exposure, which events, scales and the frame's number refer to.
     [[nodiscard]] ExposureTimes frame() const {
         return whole.value_or(ExposureTimes{open, raster, close});
     }
@@ -97,11 +96,12 @@ struct ExposureInterval {
 [[nodiscard]] ExposureInterval
 computeExposureBefore(const ExposureInterval& exposure, uint32_t frames);
 
-/// Share of a frame's light below which what is seen of it is left out.
+/// Share of a frame's light below which a part of the exposure is left out.
 inline constexpr double kLeastLight = 1.0 / 512.0;
 
-/// The part of the exposure from `open` to `close` seconds, as one of its own: its raster instant
-/// is the one nearest to the frame's, and it takes its own share of the light as the shutter does.
+/// The part of the exposure from `open` to `close` seconds, as a separate exposure: its raster
+/// instant is the one nearest to the frame's, and its share of the light follows the shutter's
+/// response.
 /// \param open, close within the exposure, open < close; the whole of it is a part, too
 [[nodiscard]] ExposureInterval
 takePart(const ExposureInterval& exposure, double open, double close);

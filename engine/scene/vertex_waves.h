@@ -34,7 +34,7 @@ struct WavePose {
     WaveShares shares;
 };
 
-/// One sentence that names the field and what is wrong with it.
+/// Error: one sentence that names the field and the fault.
 [[nodiscard]] core::Status validateWaves(const VertexWaves& waves);
 
 /// False when the waves are the same at every time.

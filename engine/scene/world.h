@@ -18,14 +18,14 @@ struct Playback {
     std::vector<bool> activeClips; ///< by clip; false: does not play; clips beyond its end do
 };
 
-/// The entities and what they refer to. Systems, extraction and the renderer take it by reference;
-/// passes see what was extracted of it.
+/// The entities and the assets that they refer to. Systems, extraction and the renderer take it by
+/// reference; passes only see extracted data.
 struct World {
     ecs::Registry registry;
     Assets assets;
     Playback playback;
     std::vector<ecs::Entity> cameras; ///< in the order of the file
-    /// When the world came to be: nothing has a past before it. Default: it always existed.
+    /// Time at which the world begins: nothing has a past before it. Default: it always existed.
     double startSeconds = -std::numeric_limits<double>::infinity();
 };
 
