@@ -32,9 +32,9 @@ constexpr uint32_t kMostLevels = 10;
 constexpr int kSpreadLevels = 8;
 constexpr float kOwnShare = 0.3f;
 
-/// Share of the coarser levels in what leaves a level. Light spreads over the same share of the
-/// picture at every resolution: of more levels the finest have none of their own, of fewer the
-/// finest has that of all that are missing. \param level 1: the finest, below `count`
+/// Share of the coarser levels in a level's output. Light spreads over the same share of the
+/// picture at every resolution: with more levels the finest add no light, with fewer the finest
+/// adds that of all missing levels. \param level 1: the finest, below `count`
 float findCoarserShare(int level, int count) {
     const int extra = count - kSpreadLevels;
     if (level <= extra)

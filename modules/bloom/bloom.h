@@ -36,9 +36,10 @@ struct BloomSettings {
 [[nodiscard]] uint32_t countLevels(uint32_t width, uint32_t height);
 
 /// Pyramid of Jimenez 2014 ("Next Generation Post Processing in Call of Duty: Advanced Warfare"),
-/// of the light above a threshold (shaders/bloom/bloom.glsl). What is scattered is taken away where
-/// it comes from: the picture keeps its light, and one without a highlight is left as it is. Runs
-/// on the linear picture, after the motion blur and before the tone map; writes RGBA16F.
+/// of the light above a threshold (shaders/bloom/bloom.glsl). Scattered light is subtracted at its
+/// source: the picture's total light is preserved, and a picture without highlights does not
+/// change. Runs on the linear picture, after the motion blur and before the tone map; writes
+/// RGBA16F.
 ///
 /// Where the last picture is known (ViewFacts::lastBrightest) and had no highlight, it does not
 /// run: a highlight that appears glows as many pictures later as it takes to know of it.

@@ -21,8 +21,8 @@ struct Channel {
 };
 
 struct ViewInfo {
-    const char* name;                  ///< of the intermediate, or of what is made of several
-    const char* description;           ///< one line: what it shows and how it is to be read
+    const char* name;                  ///< name of the intermediate, or of a combination of several
+    const char* description;           ///< one line: content and how to read it
     std::span<const Channel> channels; ///< of the intermediate in a file; empty: there is none
 };
 

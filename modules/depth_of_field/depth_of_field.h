@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Depth of field from one picture and its depth, by filters of other engines: what the lens's own
-// method is compared with. README.md says how they follow their publications.
+// Depth of field from one picture and its depth, by filters of other engines, for comparison with
+// the lens of `resolved`. README.md describes how they follow their publications.
 #pragma once
 
 #include "engine/core/result.h"

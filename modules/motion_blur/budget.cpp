@@ -81,7 +81,7 @@ void BudgetController::moveTo(size_t level) {
 }
 
 void BudgetController::stepDown(double milliseconds) {
-    // The frames that took too long, not those before them, say how long.
+    // Only the frames that took too long determine the new estimate.
     mSmoothed = milliseconds;
     const bool trialFailed = mLevelBefore > mLevel && mFrames <= kTrialFrames;
     if (trialFailed)

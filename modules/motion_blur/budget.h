@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the effect gives up to stay within a time: a ladder of levels from what was asked for down
-// to the cheapest blur there is, and who climbs it. Pure: times go in, settings come out.
+// Reduces quality to stay within a time budget: a ladder of levels from the requested settings down
+// to the cheapest blur, and a controller that moves on it. Pure functions of measured times.
 #pragma once
 
 #include "modules/motion_blur/settings.h"
@@ -32,12 +32,14 @@ struct BlurBudget {
 struct BudgetLevel {
     MotionBlurSettings settings;
     double cost = 1.0;       ///< guess: share of the first level's time
-    std::string gaveUp = ""; ///< against what was asked for; empty on the first level
+    std::string gaveUp = ""; ///< quality dropped against the requested settings; empty on the first
+                             ///< level
 };
 
-/// From the settings asked for to four samples along each pixel's own motion; each level costs less
-/// than the one before, and each blurs. Rungs give up first what is seen least:
-/// half of the resolution along long uniform motion, then rays, then samples, then the method.
+/// Makes levels from the requested settings down to four samples along each pixel's motion; each
+/// level costs less than the one before, and each blurs. The least visible quality is dropped
+/// first: half of the resolution along long uniform motion, then rays, then samples, then the
+/// method.
 [[nodiscard]] std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted);
 
 /// Chooses a level from the times of the frames before. Goes down when two frames in a row took too

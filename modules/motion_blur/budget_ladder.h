@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a method gives up quality: levels from what was asked for downwards.
+// Quality levels of a method, from the requested settings downwards.
 #pragma once
 
 #include "modules/motion_blur/budget.h"
@@ -47,8 +47,8 @@ class BudgetLadder {
 /// That share of the samples, but as many as it takes to blur at all.
 [[nodiscard]] uint32_t shareOfSamples(uint32_t samples, double share);
 
-/// Levels of a method that looks samples up: no second raster, fewer instants, then each pixel's
-/// own motion alone. \param cost of the level before
+/// Adds the levels of a method that looks up samples: no second raster, fewer instants, then each
+/// pixel's own motion alone. \param cost of the level before
 void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
 
 /// Method::addBudgetLevels of a method that has nothing to give up but samples.

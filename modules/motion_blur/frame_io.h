@@ -35,7 +35,7 @@ struct LentRaster {
     bool hasEdges = false;          ///< the raster had a MotionBlurInputs::edgeSurface
 };
 
-/// A raster of the world at the other end of the exposure, with entity ids of its own.
+/// A raster of the world at the other end of the exposure, with separate entity ids.
 struct SecondRaster {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F, of which only the depth is read
@@ -43,11 +43,11 @@ struct SecondRaster {
     bool hasEdges = false;          ///< the raster had a MotionBlurInputs::edgeSurface
 };
 
-/// Rasters that methods look things up in, as kRasterLayer and the others in resolved.glsl.
+/// Rasters in which methods look up surfaces, as kRasterLayer and the others in resolved.glsl.
 enum class LayerIndex : uint8_t { Raster, Last, Second };
 
-/// Declares what draws where what deforms in a layer goes: an image RG32UI of packWay()s
-/// (common/pixel_way.glsl).
+/// Declares the pass that draws the motion of a layer's deforming entities: an RG32UI image of
+/// packWay()s (common/pixel_way.glsl).
 /// \param surface of the layer, RG32UI: bits of the depth, and a word of which `keyMask` has the
 /// row of its entity table
 using DrawWays = std::function<graph::ImageHandle(
@@ -74,7 +74,7 @@ struct InstantMotions {
     RasterHistory* history = nullptr;
     bool keepsRaster = true;            ///< in `history`, this frame's, for the next one
     std::optional<LentRaster> lent;     ///< of the frame before
-    std::optional<SecondRaster> second; ///< `table` says where its surfaces are seen, too
+    std::optional<SecondRaster> second; ///< `table` also maps its surfaces to the instants
 };
 
 struct MotionBlurInputs {
@@ -90,8 +90,8 @@ struct MotionBlurInputs {
     graph::ImageHandle edgeSurface;
     double rasterTime = 1.0; ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
     glm::uvec2 response{0u}; ///< address of shader::ResponseTable; 0: a box
-    /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS nothing but
-    /// sky lies behind what moves and no ray is traced; `frameConstants` alone counts then.
+    /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS only sky
+    /// lies behind movers and no ray is traced; only `frameConstants` is used then.
     std::optional<graph::RayScene> rays;
     const OwnReveal* reveal = nullptr; ///< in place of `rays`; it must outlive the graph
     /// For methods of RayNeed::Query (CHECKed), unless `samples` is there.
@@ -106,7 +106,7 @@ struct MotionBlurInputs {
     /// False: the frame is drawn for what RasterHistory keeps of it alone. For
     /// Method::readsInstantMotions, which then needs no timed rays.
     bool wantsPicture = true;
-    bool wantsCounters = true;           ///< somebody reads MotionBlur::counters()
+    bool wantsCounters = true;           ///< MotionBlur::counters() will be read
     bool wantsMethodCounters = true;     ///< and the method's own among them, not the blocks alone
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
@@ -116,7 +116,7 @@ struct MotionBlurInputs {
     /// slot's last frame.
     uint32_t slot = 0;
 
-    /// Whether the method reads back what it counts itself.
+    /// Whether the method reads back its own counters.
     [[nodiscard]] bool countsOwn() const { return wantsCounters && wantsMethodCounters; }
 
     /// Whether `color` may be where the blurred picture goes.
@@ -124,9 +124,9 @@ struct MotionBlurInputs {
         return target.isValid() ? target == color : colorIsWritable;
     }
 
-    /// Image that gets the blurred picture: one with storage and transfer usage that is no other
-    /// input, or `color` if that is writable. Invalid: the cheapest. Unused by methods that do not
-    /// read the raster image.
+    /// Target of the blurred picture: an image with storage and transfer usage that is no other
+    /// input, or `color` if that is writable. Invalid: the cheapest choice. Unused by methods that
+    /// do not read the raster image.
     graph::ImageHandle target;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a host answers by means of its own (its rays, its shading, or another picture that it has):
-// the background behind masked pixels, and what pixels saw at instants that no raster holds. The
-// effect asks by a list, the host records what answers. And what it draws over the blurred picture.
+// Data that a host computes for the effect (by rays, shading or another picture of its own): the
+// background behind masked pixels, and samples at instants that no raster holds. The effect writes
+// a list of requests, the host records commands that serve them. Also the host's drawing over the
+// blurred picture.
 #pragma once
 
 #include "engine/gpu/vulkan.h"

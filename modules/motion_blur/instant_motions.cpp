@@ -59,8 +59,7 @@ glm::uvec2 writeRasterRows(gpu::Buffer& buffer, const PlacedLayer& layer) {
     return gpu::splitAddress(buffer.address() + layer.rasterRows);
 }
 
-/// Whether more rows, the sky's among them, or parts of what deforms may be candidates than a list
-/// holds.
+/// Whether more rows, including the sky's, or deforming parts may be candidates than a list holds.
 bool mayCrowd(const math::LayerTables& layer) {
     if (layer.deforms)
         return true;

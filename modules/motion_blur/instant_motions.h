@@ -13,8 +13,8 @@
 
 namespace shutter::motion_blur {
 
-/// Writes all tables into the buffer, which is made anew where they do not fit. The GPU must be
-/// done with what it held. Throws gpu::DeviceError where there is no memory.
+/// Writes all tables into the buffer, which is recreated if it is too small. The GPU must have
+/// finished with its contents. Throws gpu::DeviceError if out of memory.
 /// \return address of shader::InstantMotions
 [[nodiscard]] VkDeviceAddress
 writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer);
@@ -22,8 +22,8 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
 /// Whether so many entities move that a tile may see more of them than its list holds.
 [[nodiscard]] bool mayCrowdTiles(const math::InstantLayers& layers);
 
-/// A view's raster, kept for the frame after. Whoever declares the frames of a view holds one; the
-/// methods that look things up fill and read it, whichever of them runs.
+/// A view's raster, stored for the next frame. The owner of a view's frames holds one; whichever
+/// lookup method runs fills and reads it.
 class RasterHistory {
   public:
     struct Raster {
@@ -52,7 +52,7 @@ class RasterHistory {
     /// Nothing is kept any more, nor memory for it once the GPU is done with it.
     void forget();
 
-    /// Device memory of what is kept, bytes: 32 per pixel once two rasters were.
+    /// Device memory of the history, bytes: 32 per pixel once it holds two rasters.
     [[nodiscard]] uint64_t bytes() const;
 
   private:

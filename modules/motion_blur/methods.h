@@ -25,7 +25,7 @@ class SharedPasses;
 enum class RayNeed : uint8_t {
     None,
     Any,   ///< any tier: rays at the raster instant (MotionBlurInputs::rays)
-    Query, ///< nested ray queries: rays with times of their own (MotionBlurInputs::timedRays)
+    Query, ///< nested ray queries: time-sampled rays (MotionBlurInputs::timedRays)
 };
 
 /// What MotionBlurSettings::sampleCount counts.
@@ -70,7 +70,7 @@ struct Method {
     RayNeed rays = RayNeed::None;
     SampleUnit sampleUnit = SampleUnit::Taps;
     uint32_t defaultSamples = 15;
-    /// The raster image is an input; false: the method draws a picture of its own.
+    /// The raster image is an input; false: the method draws its own picture.
     bool readsRaster = true;
     bool readsNormal = false;   ///< MotionBlurInputs::normal is an input
     bool readsEntityId = false; ///< MotionBlurInputs::entityId is an input
@@ -81,7 +81,7 @@ struct Method {
     bool readsInstantMotions = false; ///< MotionBlurInputs::instantMotions is an input
     bool blursObjects = true;         ///< false: only the camera's own motion is blurred
     bool countsBlocks = true;         ///< its filters go over SharedPasses' lists of blocks
-    bool usesUniformMotion = false;   ///< blocks of uniform motion have a filter of their own
+    bool usesUniformMotion = false;   ///< blocks of uniform motion have a separate filter
     uint32_t listBytesPerPixel = 0;   ///< of the largest storage buffer, which grows with pixels
     std::vector<std::string_view> settings{}; ///< fields of MotionBlurSettings that it reads,
                                               ///< except sampleCount, which each method reads
@@ -92,10 +92,10 @@ struct Method {
         return rays == RayNeed::None && !readsCamera && !readsInstantMotions;
     }
 
-    /// Turns the settings into `params`: the method's own block, and what it changes of the rest.
-    /// Null: nothing.
+    /// Turns the settings into `params`: the method's own block, and changes to the rest. Null:
+    /// nothing.
     void (*resolve)(const MotionBlurSettings& settings, PassParams& params) = nullptr;
-    /// Whether rays may find something even where no surface lies behind what moves. Null: never.
+    /// Whether rays may hit something even where no surface lies behind a mover. Null: never.
     bool (*alwaysTraces)(const MotionBlurSettings& settings) = nullptr;
     /// Adds the levels by which the method gives up quality (budget_ladder.h).
     void (*addBudgetLevels)(BudgetLadder& ladder, const MotionBlurSettings& wanted);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Motion blur as a post effect on a render graph. frame_io.h says what an engine gives and gets,
-// and by which conventions.
+// Motion blur as a post effect on a render graph. frame_io.h defines inputs, outputs and
+// conventions.
 #pragma once
 
 #include "engine/gpu/device.h"

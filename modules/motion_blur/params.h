@@ -13,8 +13,7 @@
 
 namespace shutter::motion_blur {
 
-/// How many frames may be under way, each with counters of its own: a host's frames in flight times
-/// its views.
+/// Maximum number of frames in flight, times views; each has its own counters.
 inline constexpr uint32_t kMostSlots = 64;
 
 /// Push constants of every pass: what all read and, behind it, the method's own block.
@@ -39,7 +38,7 @@ struct PassParams : shader::MotionBlurParams {
 
 static_assert(sizeof(PassParams) == 128, "the push constants that every device has");
 
-/// How far tileJitter() (taps.glsl) moves the look-up of a tile at most, pixels.
+/// Maximum displacement of a tile's lookup by tileJitter() (taps.glsl), pixels.
 [[nodiscard]] float measureTileJitter(const PassParams& params);
 
 /// What the settings are to the shaders of their method. Pure.

@@ -11,8 +11,8 @@ namespace shutter::motion_blur {
 
 struct Method;
 
-/// What draws where no method is chosen: `resolved` or, where nobody tells how things move through
-/// the exposure (Method::readsInstantMotions), `gather`.
+/// The default method: `resolved` or, if motion through the exposure is unknown
+/// (Method::readsInstantMotions), `gather`.
 [[nodiscard]] const Method& getDefaultMethod(bool knowsMotions = true);
 
 /// How the reveal knows that it met another object.
@@ -21,7 +21,7 @@ enum class ObjectTest : uint8_t {
     Luminance, ///< another luminance than the first hit's (the paper's implementation)
 };
 
-/// How the reveal's ray gets past the object in front where ObjectTest::MeshId tells objects apart.
+/// How the reveal's ray passes the object in front with ObjectTest::MeshId.
 enum class RevealTraversal : uint8_t {
     Single,   ///< one traversal that leaves that object out: any number of its surfaces is passed
     Stepping, ///< from hit to hit (the paper's implementation), up to recursionLimit
@@ -30,10 +30,10 @@ enum class RevealTraversal : uint8_t {
 /// Which moving pixels near a silhouette belong to the ray mask.
 enum class MaskTest : uint8_t {
     Paper,    ///< all whose motion meets one before something deeper (the paper)
-    Relative, ///< of these only such as move against what lies behind, and none that is behind
+    Relative, ///< of these only ones that move relative to the background and are not behind it
 };
 
-/// What own velocity does with samples of what may be in front.
+/// Treatment of samples of possible occluders by own velocity.
 enum class OccluderTest : uint8_t {
     None,     ///< takes them all (three.js, Babylon.js)
     Velocity, ///< drops those whose own motion does not reach the pixel (Bevy)
@@ -83,8 +83,8 @@ struct MotionBlurSettings {
     bool history = true;       ///< the last frame's raster is looked up, too
     bool secondRaster = false; ///< so is one that is drawn at the other end of the exposure
     InstantNoise instantNoise = InstantNoise::Off;
-    /// Most rays for samples that no layer holds: on average over the picture. Infinity: as many as
-    /// it takes to trace every sample of what moves.
+    /// Maximum number of rays for samples that no layer holds, mean per pixel of the picture.
+    /// Infinity: every sample of movers is traced.
     float raysPerPixel = 0.1f;
     /// Depth along the view beyond which everything, the sky included, counts as still.
     float maxMotionDepth = std::numeric_limits<float>::infinity();
@@ -97,7 +97,7 @@ struct MotionBlurSettings {
 [[nodiscard]] MotionBlurSettings
 complete(const MotionBlurSettings& settings, bool knowsMotions = true);
 
-/// Method `hybrid` with the numbers of the publication. Rays tell objects apart by id, which the
+/// Method `hybrid` with the numbers of the publication. Rays distinguish objects by id, which the
 /// paper names as future work; its authors' implementation has ObjectTest::Luminance,
 /// RevealTraversal::Stepping and no fast path (uniformMotionPx 0).
 [[nodiscard]] MotionBlurSettings paperSettings();

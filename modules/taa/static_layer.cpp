@@ -28,7 +28,8 @@ bool hasSameBytes(std::span<const shader::LightRow> a, std::span<const shader::L
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
-/// Blended surfaces of the raster leave no id: what moves is not told from what is behind it.
+/// Blended surfaces of the raster write no id: a moving one cannot be distinguished from the
+/// surface behind it.
 /// \param rests by row
 bool hasPassers(const render::ExtractContext& context, const std::vector<bool>& rests) {
     const extract::ExtractedFrame& frame = context.frame;

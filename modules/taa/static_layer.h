@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a view's static surfaces look like, gathered from frame to frame: their colour and whose it
-// is. It stays where something moves in front of them.
+// Accumulated appearance of a view's static surfaces: their colour and entity. It is preserved
+// behind movers.
 #pragma once
 
 #include "engine/extract/raster_record.h"
@@ -26,16 +26,16 @@ class StaticLayer {
     /// A frame's own share of it.
     struct Frame {
         const Images* images = nullptr;
-        bool hasLast = false; ///< `images` hold what is known from before
+        bool hasLast = false; ///< `images` hold earlier frames' data
         shader::StaticRows rows{};
-        /// What is static may look different than in the last frame: a light, an entity that casts
-        /// shadows or what is blended over it may be another.
+        /// Static surfaces may differ from the last frame: lights, shadow casters or blended
+        /// surfaces over them may have changed.
         bool mayDiffer = false;
     };
 
     explicit StaticLayer(gpu::Device& device) : mDevice(device) {}
 
-    /// Finds what is static. A view's frames come in their order.
+    /// Finds static entities. Must be called in the order of a view's frames.
     void extract(const render::ExtractContext& context);
 
     /// The camera of the frame that extract() was called for is at rest: else nothing is static.
@@ -60,7 +60,7 @@ class StaticLayer {
         uint32_t flags = 0; ///< of shader::FrameConstants
         extract::ShadowSettings shadows;
         uint64_t shadowRevision = 0; ///< ExtractContext's
-        bool hasPassers = false;     ///< something moves that is blended over what is static
+        bool hasPassers = false;     ///< a moving blended surface lies over static ones
     };
 
     [[nodiscard]] static Record makeRecord(const render::ExtractContext& context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Temporal anti-aliasing: each frame samples another place in the pixel of what is static, and
-// their mean is kept from frame to frame.
+// Temporal anti-aliasing: each frame samples another place in the pixel of static surfaces, and
+// accumulates their mean.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -15,7 +15,7 @@
 namespace shutter::taa {
 
 using shader::kPlaceCount;
-/// Frames before a picture that settle what it shows, where none was drawn.
+/// Number of frames to draw before a picture without history, so that it settles.
 inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 
 /// Place of a frame's samples: by Sobol's sequence in two dimensions, whose first kPlaceCount
@@ -30,18 +30,18 @@ inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 
 /// Where neither the camera nor the entity moves, a pixel is the mean of the first kPlaceCount
-/// frames in which it was seen; then it stays as it is, also while something moves in front. Sums
-/// do not depend on the frames' order, so a sequence that resumes has the same bits where nothing
-/// has moved in front or changed since it settled. In frames in which
-/// what is static may look different (another light, an entity that comes, goes, starts or stops,
-/// particles, glass that moves, tiles that a moving shadow may reach) it is clipped to the variance
-/// of the neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as
-/// Karis 2014 ("High Quality Temporal Supersampling"). What moves has one sample at the pixel's
-/// centre and no history: motion blur smooths it, and reprojected history is farther from the mean
-/// over the pixel than none (docs/anti_aliasing.md). Runs on the linear picture before the motion
-/// blur. The view must be one of makeJittered(); afterwards its colour has no jitter
-/// (ExtractContext::colorJitterPx), other images of the raster keep theirs where the surface is
-/// static. Keeps 20 bytes per pixel: sum, count and row.
+/// frames in which it was visible; then it does not change, even while something moves in front.
+/// Sums do not depend on the frames' order, so a sequence that resumes has the same bits where
+/// nothing has moved in front or changed since it settled. In frames in which static surfaces may
+/// look different (another light, an entity that appears, disappears, starts or stops, particles,
+/// moving glass, tiles that a moving shadow may reach) it is clipped to the variance of the
+/// neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as Karis
+/// 2014 ("High Quality Temporal Supersampling"). Movers have one sample at the pixel's centre and
+/// no history: motion blur smooths it, and reprojected history is farther from the mean over the
+/// pixel than none (docs/anti_aliasing.md). Runs on the linear picture before the motion blur. The
+/// view must be one of makeJittered(); afterwards its colour has no jitter
+/// (ExtractContext::colorJitterPx), other images of the raster remain jittered where the surface is
+/// static. Memory: 20 bytes per pixel: sum, count and row.
 class Taa : public render::PostEffect {
   public:
     explicit Taa(gpu::Device& device);

@@ -53,7 +53,7 @@ void Tonemap::declare(render::PostContext& context) {
     struct Data {
         graph::ImageHandle color;
         graph::ImageHandle display;
-        graph::BufferHandle brightest; ///< invalid: it is not asked for
+        graph::BufferHandle brightest; ///< invalid: not requested
     };
 
     shader::TonemapParams params{};

@@ -50,13 +50,13 @@ class Tonemap : public render::PostEffect {
     void finish(render::FinishedFrame& frame) override;
 
   private:
-    /// Room for what a slot's groups find. \return invalid: it is not asked for
+    /// Makes the buffer for a slot's group results. \return invalid: not requested
     [[nodiscard]] graph::BufferHandle prepareBrightest(render::PostContext& context);
 
     /// What a frame's groups found.
     struct Brightest {
         gpu::Buffer groups;      ///< float[]: of each group's pixels
-        uint32_t groupCount = 0; ///< of the slot's frame; 0: it was not asked for
+        uint32_t groupCount = 0; ///< of the slot's frame; 0: not requested
     };
 
     gpu::Device& mDevice;

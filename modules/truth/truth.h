@@ -26,11 +26,12 @@ struct TruthSettings {
     bool operator==(const TruthSettings&) const = default;
 };
 
-/// Bias of texture levels that lets `rays` a pixel resolve what they can: 0 for the centre.
+/// Texture level bias that matches the resolution of `rays` per pixel: 0 for the centre.
 [[nodiscard]] float computeLodBias(PixelModel pixel, uint32_t rays);
 
-/// Rays a pixel of each batch, in order: their sum is `rays`, a batch ends at each of `stops` below
-/// it (above 0), and none but a batch of one ray a pixel is longer than a device does in a blink.
+/// Rays per pixel of each batch, in order: their sum is `rays`, and a batch ends at each of `stops`
+/// below it (above 0). Batches are short enough not to trigger a driver's watchdog, except that a
+/// batch has at least one ray per pixel.
 /// \param pixels of the picture, above 0
 [[nodiscard]] std::vector<uint32_t>
 planBatches(uint64_t pixels, uint32_t rays, std::span<const uint32_t> stops);
@@ -41,12 +42,12 @@ class Truth : public render::PostEffect {
   public:
     Truth(gpu::Device& device, const gpu_scene::GpuScene& scene, const TruthSettings& settings);
 
-    /// \param first rays a pixel that earlier batches traced; 0 starts anew
-    /// \param count rays a pixel of this batch; 0, after the first, shows the mean once more
+    /// \param first rays per pixel of earlier batches; 0 restarts
+    /// \param count rays per pixel of this batch; 0, after the first, shows the mean again
     void setBatch(uint32_t first, uint32_t count);
 
     /// In the frame collected last: standard error of the mean in linear light, root mean square
-    /// over pixels and channels. Nothing below two rays a pixel: one ray has no error to see.
+    /// over pixels and channels. Nothing below two rays per pixel: one ray gives no error estimate.
     [[nodiscard]] std::optional<double> standardError() const { return mStandardError; }
 
     [[nodiscard]] std::string name() const override { return "truth"; }

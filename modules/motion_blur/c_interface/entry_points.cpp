@@ -48,7 +48,7 @@ ShutterBlurResult finish(const core::Status& status) noexcept {
     return status ? SHUTTER_BLUR_SUCCESS : refuse(status.error());
 }
 
-/// Runs what may throw: C has no word for it.
+/// Runs code that may throw and converts exceptions to results for C.
 template <class Call> ShutterBlurResult guard(const Call& call) noexcept {
     try {
         return call();
@@ -130,7 +130,7 @@ void shutterBlurDestroy(ShutterBlur* blur) {
     if (!blur)
         return;
     {
-        const motion_blur::OneThread::Call inside(blur->thread); // for what it tells as it goes
+        const motion_blur::OneThread::Call inside(blur->thread); // for messages during destruction
         blur->effect.reset();
     }
     delete blur;

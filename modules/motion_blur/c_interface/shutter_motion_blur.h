@@ -11,8 +11,8 @@
  *
  * A library takes the structures of older headers of its own major and minor version.
  *
- * Nothing is thrown and nothing aborts. What cannot be done is refused: the function returns an
- * error, and shutterBlurGetMessage() says in one sentence which field is wrong.
+ * Nothing is thrown and nothing aborts. On invalid calls the function returns an error, and
+ * shutterBlurGetMessage() names the wrong field in one sentence.
  *
  * An object may be used by one thread at a time: a call while another thread's is under way, or
  * from within a callback, is refused, except for shutterBlurDestroy(). Matrices are column by
@@ -80,8 +80,8 @@ SHUTTER_BLUR_API const char* shutterBlurGetMessage(void);
  * extension. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurAddFeatures(VkPhysicalDeviceFeatures2* features);
 
-/* Refused, with a message that names what is missing, if the device cannot do that, or the queue
- * family runs no compute shaders. */
+/* Error, with a message that names what is missing: the device cannot do that, or the queue family
+ * has no compute shaders. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t queueFamily);
 
@@ -97,27 +97,27 @@ typedef void (*ShutterBlurMessage)(void* user, const char* sentence);
 /* Handles stay the host's and must outlive the object. */
 typedef struct ShutterBlurDevice {
     uint32_t structBytes;
-    uint32_t headerVersion; /* SHUTTER_BLUR_VERSION, to be checked; 0: not said */
+    uint32_t headerVersion; /* SHUTTER_BLUR_VERSION, checked; 0: unknown */
     VkPhysicalDevice physical;
     VkDevice device;         /* made with Vulkan 1.3 and the features above */
     uint32_t queueFamily;    /* of the command buffers */
     uint32_t framesInFlight; /* frames in flight times views, [1, 64] */
     VkBool32 hasDebugUtils;  /* VK_EXT_debug_utils is enabled: objects and passes get names */
-    /* Where pipelines are looked up and kept, so that a host that saves it starts faster the next
-     * time; null: in one that goes with the object. Not made to be synchronized by its users. */
+    /* Pipeline cache, so that a host that saves it starts faster the next time; null: one that is
+     * destroyed with the object. Not externally synchronized. */
     VkPipelineCache pipelineCache;
     /* The feature rayTracingPipelineTraceRaysIndirect is enabled. */
     VkBool32 tracesIndirect;
-    /* VkApplicationInfo::apiVersion of the instance, to be checked; 0: not said. */
+    /* VkApplicationInfo::apiVersion of the instance, checked; 0: unknown. */
     uint32_t apiVersion;
-    /* The chain that the device was made with, to be checked; null: not said, and
-     * subgroupSizeControl is not used. Read by shutterBlurCreate() only. */
+    /* The chain that the device was made with, checked; null: unknown, and subgroupSizeControl is
+     * not used. Read by shutterBlurCreate() only. */
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /* shutterBlurRecord() takes the GPU's times and counts, for shutterBlurGetReport() and
      * ShutterBlurInputs::budgetMilliseconds: two timestamps a pass and a few small copies. */
     VkBool32 measures;
-    /* Compares the inputs of each recording with one another and with what they must be, and tells
-     * `message` what looks wrong (docs/debugging_integration.md). 0 costs nothing. */
+    /* Checks the inputs of each recording for range and consistency, and reports faults to
+     * `message` (docs/debugging_integration.md). 0 costs nothing. */
     VkBool32 checksInputs;
     /* Gets what the checker finds, why a dump failed, and that the object is destroyed too early;
      * or null. */
@@ -151,15 +151,15 @@ typedef struct ShutterBlurValue {
 
 typedef struct ShutterBlurSettings {
     uint32_t structBytes;
-    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null, gather, which
-     * `message` tells. */
+    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null, gather, which is
+     * reported to `message`. */
     const char* method;
     uint32_t sampleCount; /* taps or instants; 0: the method's own number */
     uint32_t valueCount;
     const ShutterBlurValue* values; /* all others are as the method's page has them */
     /* "off" (output gets a copy of color), "performance", "balanced" (neither needs rays),
-     * "quality" (needs recordSamples) or "paper" (needs recordReveal): `values` change it, `method`
-     * and a sampleCount of 0 do not count. Null: there is none. */
+     * "quality" (needs recordSamples) or "paper" (needs recordReveal): `values` override it;
+     * `method` and a sampleCount of 0 are ignored. Null: none. */
     const char* preset;
 } ShutterBlurSettings;
 
@@ -186,18 +186,18 @@ typedef struct ShutterBlurUse {
 } ShutterBlurUse;
 
 /* 2D, one level, one sample, owned by the queue family of the commands. It may be destroyed once
- * the frame is done. What is said of usage and samples is checked; Vulkan does not tell them. An
- * image whose memory is too small for what is said of it is refused. */
+ * the frame is complete. Usage and samples are checked as given, since Vulkan has no query for
+ * them. Error: the image's memory is too small for the given format and extent. */
 typedef struct ShutterBlurImage {
     VkImage image;
     VkFormat format;   /* UNDEFINED: the first that the input takes */
     VkExtent2D extent; /* of the whole image; 0 x 0: it ends where `area` does */
     /* The part that is used; an extent of 0 x 0: all of `extent` from the offset on, or the
-     * picture's size where that is not said either. Inputs of another size than the picture's are
+     * picture's size if that is not given either. Inputs of another size than the picture's are
      * read at the nearest pixel. */
     VkRect2D area;
-    VkImageUsageFlags usage;       /* that it was made with, to be checked; 0: not said */
-    VkSampleCountFlagBits samples; /* that it was made with, must be 1; 0: not said */
+    VkImageUsageFlags usage;       /* that it was made with, checked; 0: unknown */
+    VkSampleCountFlagBits samples; /* that it was made with, must be 1; 0: unknown */
     uint32_t layer; /* of an image of several, such as one for both eyes: the one that is used */
     ShutterBlurUse before;
     ShutterBlurUse after;
@@ -224,11 +224,11 @@ typedef struct ShutterBlurCameras {
 
 /* The camera at one shutter time, for "resolved". Between keys, translation is straight, rotation
  * takes the shorter arc, and scale, shear and projection are linear; before the first key and after
- * the last one all is static. Three keys (open, raster, close) are enough for what turns evenly,
- * by less than half a turn from key to key. */
+ * the last one everything is static. Three keys (open, raster, close) are enough for uniform
+ * rotation by less than half a turn from key to key. */
 typedef struct ShutterBlurCameraKey {
-    /* Shutter time: 0 open, 1 close. One outside of [0, 1] counts for what lies between it and the
-     * next key, as that of the frame before does: shutterBlurGetTimeBefore(). Within 1e6 of 0. */
+    /* Shutter time: 0 open, 1 close. One outside of [0, 1] affects the motion between it and the
+     * next key, such as that of the previous frame: shutterBlurGetTimeBefore(). Within 1e6 of 0. */
     double time;
     double viewFromWorld[16]; /* in metres, as the depth in motionDepth */
     /* As above, the same kind in all keys, with the jitter of `color` in all keys: this frame's, or
@@ -240,9 +240,9 @@ typedef struct ShutterBlurCameraKey {
 typedef struct ShutterBlurMover {
     uint32_t row; /* its value in `entityId`, below rowCount */
     /* World from the entity's own space, 16 numbers for each camera key: affine, with any scale;
-     * where it is singular, the entity is not to be seen. Null: it changes its shape, or its way is
-     * not known; ShutterBlurInputs::deformedMotion says where its pixels go, or else their motion
-     * vectors do, taken as straight. */
+     * where it is singular, the entity is hidden. Null: it deforms, or its motion is unknown; its
+     * pixels then move by ShutterBlurInputs::deformedMotion or else straight along their motion
+     * vectors. */
     const double* worldFromObject;
 } ShutterBlurMover;
 
@@ -257,9 +257,9 @@ typedef struct ShutterBlurRevealTarget {
     VkImageView view;
 } ShutterBlurRevealTarget;
 
-/* For "hybrid": what the host's commands, which recordReveal() records, read and write. All of it
- * is ready for compute shaders, and for ray-tracing shaders with revealByRayPipeline; what is
- * written needs no barrier of the host's. Its images are in VK_IMAGE_LAYOUT_GENERAL. The images of
+/* For "hybrid": the buffers and images that the host's commands from recordReveal() read and write.
+ * All of it is ready for compute shaders, and for ray-tracing shaders with revealByRayPipeline; no
+ * barrier is needed after writes. Its images are in VK_IMAGE_LAYOUT_GENERAL. The images of
  * ShutterBlurInputs that the effect reads may be sampled: they are in
  * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL. */
 typedef struct ShutterBlurRevealTask {
@@ -267,55 +267,56 @@ typedef struct ShutterBlurRevealTask {
     VkCommandBuffer commands; /* those of the recording */
     uint32_t width;           /* of the picture */
     uint32_t height;
-    /* How many pixels ask (uint32_t), 12 bytes of other counts, then the pixels: x | y << 16. */
+    /* Number of requested pixels (uint32_t), 12 bytes of other counts, then the pixels:
+     * x | y << 16. */
     VkBuffer list;
     VkDeviceAddress listAddress;
     VkDeviceSize listBytes;
     /* VkDispatchIndirectCommand: groups of 64 threads. Thread t of group (x, y) serves pixel
-     * (y * 256 + x) * 64 + t, if so many ask. */
+     * (y * 256 + x) * 64 + t, if there are that many. */
     VkBuffer groups;
     /* VkTraceRaysIndirectCommandKHR, one launch a pixel; null unless
      * ShutterBlurDevice::tracesIndirect. */
     VkBuffer launch;
     VkDeviceAddress launchAddress;
-    /* Storage images of the picture's size, to be written at every pixel that asks: what is seen
-     * there past the entity in front. */
+    /* Storage images of the picture's size, to be written at every requested pixel: the surface
+     * visible there past the entity in front. */
     ShutterBlurRevealTarget color;       /* RGBA16F */
     ShutterBlurRevealTarget motionDepth; /* RGBA32F: as ShutterBlurInputs::motionDepth */
     ShutterBlurRevealTarget entityId;    /* R32_UINT; 0xFFFFFFFF: the sky */
 } ShutterBlurRevealTask;
 
-/* For "adaptive": what the host's commands, which recordSamples() records, read and write. All of
- * it is ready for compute shaders, and for ray-tracing shaders with samplesByRayPipeline; what is
- * written needs no barrier of the host's. */
+/* For "adaptive": the buffers that the host's commands from recordSamples() read and write. All of
+ * it is ready for compute shaders, and for ray-tracing shaders with samplesByRayPipeline; no
+ * barrier is needed after writes. */
 typedef struct ShutterBlurSampleTask {
     uint32_t structBytes;
     VkCommandBuffer commands; /* those of the recording */
     uint32_t width;           /* of the picture */
     uint32_t height;
-    /* How many samples ask (uint32_t), 12 bytes of other counts, then 8 bytes a sample: its pixel,
-     * x | y << 16 (uint32_t), and its shutter time, 0 open to 1 close (float). */
+    /* Number of requested samples (uint32_t), 12 bytes of other counts, then 8 bytes per sample:
+     * its pixel, x | y << 16 (uint32_t), and its shutter time, 0 open to 1 close (float). */
     VkBuffer list;
     VkDeviceAddress listAddress;
     VkDeviceSize listBytes;
     /* VkDispatchIndirectCommand: groups of 64 threads. Thread t of group (x, y) serves sample
-     * (y * 256 + x) * 64 + t, if so many ask. */
+     * (y * 256 + x) * 64 + t, if there are that many. */
     VkBuffer groups;
     /* VkTraceRaysIndirectCommandKHR, one launch a sample; null unless
      * ShutterBlurDevice::tracesIndirect and samplesByRayPipeline. */
     VkBuffer launch;
     VkDeviceAddress launchAddress;
-    /* 16 bytes a sample, to be written: red, green, blue (linear floats) of what is seen through
-     * the pixel's centre at that time, and a fourth float of 1. Samples that are not written stay
-     * as they were looked up. */
+    /* 16 bytes per sample, to be written: red, green, blue (linear floats) of the surface visible
+     * through the pixel's centre at that time, and a fourth float of 1. Samples that are not
+     * written retain the looked-up colour. */
     VkBuffer answers;
     VkDeviceAddress answersAddress;
     VkDeviceSize answersBytes;
 } ShutterBlurSampleTask;
 
-/* What the host's commands, which recordBlended() records for one part of the exposure, read and
- * write. All of it is ready for vertex, fragment and compute shaders; what is written needs no
- * barrier of the host's. Images are in VK_IMAGE_LAYOUT_GENERAL. */
+/* The buffers and images that the host's commands from recordBlended() read and write for one part
+ * of the exposure. All of it is ready for vertex, fragment and compute shaders; no barrier is
+ * needed after writes. Images are in VK_IMAGE_LAYOUT_GENERAL. */
 typedef struct ShutterBlurBlendedTask {
     uint32_t structBytes;
     VkCommandBuffer commands; /* those of the recording */
@@ -327,10 +328,10 @@ typedef struct ShutterBlurBlendedTask {
     uint32_t instantCount; /* of the whole exposure */
     /* Shutter times of all instants, rising: 0 open, 1 close. Valid during the call. */
     const double* times;
-    /* 32-bit words: 8 of others, then for each pair of instants one per pixel of the area, row by
-     * row: two halves, the depth that the pixel sees at the even instant (low) and at the next one,
-     * metres along the view, infinity for the sky, and this frame's where nobody knows what was
-     * uncovered. Null: the method looks no instants up; this frame's depth is the nearest thing. */
+    /* 32-bit words: 8 reserved, then for each pair of instants one per pixel of the area, row by
+     * row: two halves, the depth visible to the pixel at the even instant (low) and at the next
+     * one, metres along the view; infinity for the sky, and this frame's depth where the uncovered
+     * surface is unknown. Null: the method does not look up instants; use this frame's depth. */
     VkBuffer surfaces;
     VkDeviceAddress surfacesAddress;
     VkDeviceSize surfacesBytes;
@@ -358,45 +359,47 @@ typedef struct ShutterBlurInputs {
     /* RGBA16F, RGBA32F or B10G11R11; linear. Sampled; RGBA16F of the picture's size: transfer
      * source, too; in place: storage, too. */
     ShutterBlurImage color;
-    /* As `color`; storage; RGBA16F of the picture's size: transfer target, too. Null: in place, the
-     * blurred picture replaces `color`. */
+    /* Like `color`, with storage usage; RGBA16F of the picture's size needs transfer-destination
+     * usage, too. Null: in place; the blurred picture replaces `color`. */
     ShutterBlurImage output;
 
-    /* Either the motion blur's own, RGBA32F: displacement over the exposure, pixels right and down;
-     * metres along the view, 1e9 where nothing is. */
+    /* Either motion and depth in the effect's own format, RGBA32F: displacement over the exposure,
+     * pixels right and down; metres along the view, 1e9 for the sky. */
     ShutterBlurImage motionDepth;
-    /* Or motion vectors and depth of the host's, of any size; sampled. Null vectors: they are the
-     * camera's, by `cameras`; nothing else moves but movers with matrices, for "resolved". */
+    /* Or the host's motion vectors and depth, of any size; sampled. Null vectors: motion is the
+     * camera's, from `cameras`; otherwise only movers with matrices move, for "resolved". */
     ShutterBlurImage vectors; /* RG16F, RG32F, RGBA16F or RGBA32F */
     ShutterBlurImage depth;   /* D32F, D16, X8D24, D24S8, D32FS8, or a first channel of floats */
-    /* What the vectors are multiplied by to be pixels of the picture, right and down, from the
-     * frame before to this one: (-width, -height) where they lead back in texture coordinates,
-     * (-width / 2, height / 2) back in normalised device coordinates with y up. Not 0. */
+    /* Factor from vectors to pixels of the picture, right and down, from the previous frame to this
+     * one: (-width, -height) for vectors back in time in texture coordinates,
+     * (-width / 2, height / 2) for vectors back in normalised device coordinates with y up. Not 0.
+     */
     float pixelsPerUnit[2];
-    VkBool32 vectorsLackCamera; /* the camera's part is not in them; `cameras` gives it */
-    VkBool32 vectorsHaveJitter; /* cameras.jitterPx is left in them */
-    VkBool32 depthIsLinear;     /* along the view; 0: as the hardware stores it, by `cameras` */
-    float metresPerUnit;        /* of linear depth, above 0 */
-    /* Of the depth where nothing is. Linear: that and all beyond it; else what the buffer is
-     * cleared to, 0 where far is 0. NaN: nothing tells the sky. */
+    VkBool32 vectorsLackCamera; /* vectors exclude camera motion; it is computed from `cameras` */
+    VkBool32 vectorsHaveJitter; /* vectors include cameras.jitterPx */
+    /* linear along the view; 0: hardware depth, decoded with `cameras` */
+    VkBool32 depthIsLinear;
+    float metresPerUnit; /* unit of linear depth, above 0 */
+    /* Depth of the background. Linear: this value and all beyond it; otherwise the clear value, 0
+     * for reversed depth. NaN: no value marks the sky. */
     float skyValue;
     ShutterBlurCameras cameras;
-    /* Exposure over the time between the frames, [0, 16]: 0.5 is a shutter of 180 degrees. With
-     * motionDepth it counts for "rosado2007" alone, which follows `cameras`. */
+    /* Exposure divided by the time between frames, [0, 16]: 0.5 is a 180-degree shutter. With
+     * motionDepth only "rosado2007" uses it, for the motion from `cameras`. */
     float exposureShare;
-    float cameraScale; /* share of the camera's motion that is blurred, [0, 16] */
-    float objectScale; /* the same of what objects move by themselves */
-    /* Frames that are shown for each one drawn, where others are generated between, [1, 16]: each
-     * is shown for that much less time, and blurred as much less. */
+    float cameraScale; /* scale of the blur by camera motion, [0, 16] */
+    float objectScale; /* scale of the blur by object motion, [0, 16] */
+    /* Displayed frames per rendered frame, with frame generation, [1, 16]: the exposure, and so the
+     * blur, is divided by this. */
     float displayedPerRendered;
-    ShutterBlurImage blurScale; /* R8, R16F or R32F: the pixels' share of the blur; null: 1 */
-    /* The frame before was of another place, or there is none: nothing is blurred, and the cameras
-     * before do not count. Nor, unless with motionDepth, does followsLast, nor any of `keys` but
-     * the raster's. */
+    ShutterBlurImage blurScale; /* R8, R16F or R32F: scale of the blur per pixel; null: 1 */
+    /* The previous frame showed another place, or there is none: nothing is blurred, and the
+     * previous cameras are ignored. Without motionDepth, followsLast and all `keys` but the
+     * raster's are ignored, too. */
     VkBool32 isCut;
 
     double rasterTime;   /* the raster instant in the exposure: 0 open, 0.5 centre, 1 close */
-    int64_t frameNumber; /* the next frame has the next number */
+    int64_t frameNumber; /* consecutive frames have consecutive numbers */
 
     /* For "resolved": */
     /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
@@ -407,8 +410,8 @@ typedef struct ShutterBlurInputs {
      * unresolved. */
     uint32_t rowCount;
     uint32_t keyCount; /* [1, 64] */
-    /* Times rising, one at rasterTime; ahead by cameras.aheadIsPlusZ. They alone say how long the
-     * exposure is: exposureShare scales vectors. */
+    /* Times rising, one at rasterTime; ahead by cameras.aheadIsPlusZ. They alone determine the
+     * length of the exposure: exposureShare scales vectors. */
     const ShutterBlurCameraKey* keys;
     uint32_t moverCount;
     /* In any order, each row once. A row without one is static in the world: where it is, and in
@@ -418,10 +421,10 @@ typedef struct ShutterBlurInputs {
      * they are; one that occurs twice is not found, and a new one takes history from an entity that
      * was teleported. Null: the rows, so no entity may come, go or change its row. */
     const uint64_t* rowIds;
-    uint32_t view; /* number of the view, below framesInFlight: each has a history of its own */
-    /* The recording before of this view was submitted before this one, to the same queue, and shows
-     * the frame before in the same world space, or all has stood still since. Its raster is looked
-     * up, too, unless it had another size or kind of projection. */
+    uint32_t view; /* index of the view, below framesInFlight: each has its own history */
+    /* The previous recording of this view was submitted before this one, to the same queue, and
+     * shows the previous frame in the same world space, or nothing has moved since. Its raster is
+     * looked up, too, unless it had another size or kind of projection. */
     VkBool32 followsLast;
 
     /* For "hybrid", with entityId and noEntity: */
@@ -435,8 +438,8 @@ typedef struct ShutterBlurInputs {
     void* samplesUser;                      /* its first argument */
     VkBool32 samplesByRayPipeline;          /* its commands launch a ray-tracing pipeline */
 
-    /* For "resolved" and "adaptive" with followsLast, from a host that has the frame before still;
-     * null images: the object keeps what it needs of it. None of them is written. */
+    /* For "resolved" and "adaptive" with followsLast, from a host that still has the previous
+     * frame's images; null images: the object stores what it needs. None of them is written. */
     ShutterBlurImage lastColor;       /* sharp: that frame's `color` before the blur */
     ShutterBlurImage lastMotionDepth; /* RGBA32F, of the picture's size, as `motionDepth` */
     ShutterBlurImage lastEntityId;    /* null where that frame had none */
@@ -459,9 +462,10 @@ typedef struct ShutterBlurInputs {
      * where that is within 0.1 of 0 or 1, it is straight. Other pixels do not count. Null: those
      * movers follow their motion vectors, and have no history. */
     ShutterBlurImage deformedMotion;
-    /* The same for the raster of the frame before: how far from there its pixels' surfaces are in
-     * this exposure. The host draws what deforms once more, posed as it was then and by that
-     * frame's camera. With followsLast and deformedMotion; null: what deforms has no history. */
+    /* The same for the raster of the frame before: displacement of its pixels' surfaces from there
+     * during this exposure. The host draws deforming entities again, posed as in that frame and
+     * with its camera. With followsLast and deformedMotion; null: deforming entities have no
+     * history. */
     ShutterBlurImage lastDeformedMotion;
 
     /* Transparent surfaces and particles as they are over the exposure, which go over the blurred
@@ -505,11 +509,10 @@ static inline double shutterBlurGetTimeBefore(const ShutterBlurInputs* inputs) {
 
 /* Records the effect into `commands`, which are being recorded, outside of rendering, and are
  * submitted once at most. It binds pipelines, sets 0 and push constants of the compute bind point.
- * `frame` is below framesInFlight: the GPU must be done with what was recorded last under it, and
- * the host has waited for it. While the GPU has not run that, the call is refused;
- * shutterBlurMarkDone() tells of one that is never submitted. After an error, the next frame of the
- * view has none before it, whatever followsLast says.
- * Settings may be null. */
+ * `frame` is below framesInFlight: the GPU must have finished the last recording with that number,
+ * and the host has waited for it; otherwise the call fails. Call shutterBlurMarkDone() for a
+ * recording that is never submitted. After an error, the next frame of the view has no history,
+ * regardless of followsLast. Settings may be null. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     ShutterBlur* blur,
     VkCommandBuffer commands,
@@ -518,13 +521,14 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     const ShutterBlurSettings* settings
 );
 
-/* The GPU is done with `frame`, or will never see it: for a recording that was dropped, and for a
- * number that is not recorded again soon, since what was retired after it, by any frame, is kept
- * until then. What resizing left over goes once every frame recorded until then is done. */
+/* Declares that the GPU has finished `frame`, or will never run it: for a recording that was
+ * dropped, and for a number that is not recorded again soon, since resources retired after it, by
+ * any frame, are freed only then. Resources retired by a resize are freed once every frame recorded
+ * before it is complete. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame);
 
-/* The view was closed: what "resolved" keeps of its last raster goes once its frames are done. Its
- * number may be used anew. */
+/* Closes the view: the history of "resolved" is freed once the view's frames are complete. Its
+ * index may be reused. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view);
 
 /* ---- Times and counters --------------------------------------------------------------------- */
@@ -558,8 +562,8 @@ static inline ShutterBlurReport shutterBlurDefaultReport(void) {
     return made;
 }
 
-/* Times and counters of what was recorded last under `frame`. Requires ShutterBlurDevice::measures;
- * refused until the GPU has run the frame. */
+/* Returns times and counters of the last recording with that number. Requires
+ * ShutterBlurDevice::measures. Error: the GPU has not run the frame yet. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* report);
 
@@ -610,7 +614,7 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurEstimateMemory(
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
 
-/* The same on a thread of its own: shutterBlurIsWarm() tells when it is done.
+/* The same on a background thread: shutterBlurIsWarm() returns whether it is done.
  * shutterBlurDestroy() waits for it. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurStartWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
@@ -620,9 +624,9 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurIsWarm(ShutterBlur* blur, VkBool32
 
 /* ---- Debugging ------------------------------------------------------------------------------ */
 
-/* Writes inputs, settings and pictures of the next `frames` recordings, [1, 9999], to a folder that
- * is made if need be, for `shutter replay`: each once its frame is done. The first recording of a
- * view uses no history. What goes wrong afterwards, ShutterBlurDevice::message tells. */
+/* Writes inputs, settings and pictures of the next `frames` recordings, [1, 9999], to a folder,
+ * which is created if missing, for `shutter replay`: each once its frame is complete. The first
+ * recording of a view uses no history. Later errors are reported to ShutterBlurDevice::message. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurDump(ShutterBlur* blur, const char* folder, uint32_t frames);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shutter_motion_blur.h for C++17: an object that destroys itself, structures that start with their
-// defaults, and results that carry their sentence. What each field and call means is said there;
-// this adds none. It throws nothing of its own and needs no run-time types.
+// defaults, and results that carry the error's sentence. Fields and calls are documented there;
+// this adds none. It throws no exceptions and needs no RTTI.
 //
 //     auto blur = shutter::MotionBlur::create({physical, device, queueFamily, framesInFlight});
 //     if (!blur)
@@ -19,7 +19,7 @@
 
 namespace shutter {
 
-/// How a call ended: true, or an error and the sentence that names what is wrong.
+/// Result of a call: true, or an error and the sentence that names the fault.
 class [[nodiscard]] BlurStatus {
   public:
     /// Of the C call that has just returned `code` on this thread.
@@ -56,8 +56,8 @@ template <class T> class [[nodiscard]] BlurResult : public BlurStatus {
     T mValue;
 };
 
-/// Callables are called by reference: they must last as long as what they are given to, and must
-/// not throw. Arrays are pointed to, too, and read during the call only.
+/// Callables are stored by reference: they must outlive the object that they are passed to, and
+/// must not throw. Arrays are referenced, too, and read during the call only.
 namespace blur_detail {
 
 template <class Call> void* erase(Call& call) {
@@ -252,7 +252,7 @@ class MotionBlur {
         return BlurStatus(shutterBlurStartWarmUp(handle(), &plan));
     }
 
-    /// The value is the answer; the result says only whether it is known.
+    /// The value is the answer; the result is whether it is known.
     BlurResult<bool> isWarm() {
         VkBool32 warm = VK_FALSE;
         const ShutterBlurResult code = shutterBlurIsWarm(handle(), &warm);

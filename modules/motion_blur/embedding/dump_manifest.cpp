@@ -52,7 +52,7 @@ ordered_json describeConvention(const HostConvention& convention) {
     root["depthIsRaw"] = !convention.depth.isLinear;
     root["metresPerUnit"] = convention.depth.metresPerUnit;
     root["skyValue"] = describeNumber(convention.depth.skyValue);
-    // What does not count may be anything, so it is left out.
+    // Ignored fields may hold any value, so they are omitted.
     root["cameras"] =
         convention.cameras.areGiven ? describeCameras(countedCameras(convention)) : ordered_json();
     root["exposureShare"] = convention.scales.exposureShare;
@@ -129,7 +129,7 @@ ordered_json describeInputs(
         convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
         if (method.readsCamera)
             convention.scales = inputs.convention.scales;
-        // They say when the raster of the frame before was.
+        // They determine the time of the previous frame's raster.
         convention.scales.exposureShare = inputs.convention.scales.exposureShare;
         convention.scales.displayedPerRendered = inputs.convention.scales.displayedPerRendered;
     }

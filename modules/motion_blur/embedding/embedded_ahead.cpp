@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an EmbeddedMotionBlur does before there are frames: memory told, pipelines made.
+// EmbeddedMotionBlur before the first frame: memory estimates and pipelines.
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
@@ -73,7 +73,7 @@ class SmallImages {
     std::deque<gpu::Image> mImages;
 };
 
-/// A command buffer that nobody submits.
+/// A command buffer that is never submitted.
 class DroppedCommands {
   public:
     DroppedCommands(VkDevice device, uint32_t queueFamily) : mDevice(device) {
@@ -104,7 +104,7 @@ class DroppedCommands {
     VkCommandPool mPool = VK_NULL_HANDLE;
 };
 
-/// Runs what may run out of memory, as an error.
+/// Runs a call and converts running out of memory to an error.
 template <class Call> auto guard(const Call& call) -> decltype(call()) {
     try {
         return call();
@@ -148,8 +148,9 @@ core::Status EmbeddedMotionBlur::warmUp(const HostPlan& plan) {
 core::Status EmbeddedMotionBlur::makePipelines(const HostPlan& plan) {
     return guard([&]() -> core::Status {
         core::Status done = recordOnce(plan);
-        mSlots[0]->counts = false; // the effect was told of a frame of that number
-        // Nobody submits it: what it retired goes when the frames before are done.
+        mSlots[0]->counts = false; // the effect has declared a frame with that number
+        // Never submitted: resources that it retired are freed when the earlier frames are
+        // complete.
         mDevice->markDone(mDevice->handOver());
         return done;
     });

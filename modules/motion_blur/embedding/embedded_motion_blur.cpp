@@ -120,7 +120,7 @@ void EmbeddedMotionBlur::warn(const std::string& sentence) const {
 }
 
 EmbeddedMotionBlur::~EmbeddedMotionBlur() {
-    const OneThread::Call call(mThread); // what it tells may lead to no other
+    const OneThread::Call call(mThread); // callbacks must not call back into this object
     for (uint32_t frame = 0; frame < mSlots.size(); ++frame)
         if (isPending(frame))
             warn(fmt::format(
@@ -295,7 +295,7 @@ const MotionBlurSettings& EmbeddedMotionBlur::chooseSettings(
     slot.gaveUp.clear();
     const bool isNew = !view.budget || view.wanted != settings ||
                        view.budget->budget().milliseconds != inputs.budget.milliseconds;
-    // Before the slot is recorded anew: its times are the last one's still.
+    // Before the slot is recorded again: its times are still those of the last recording.
     for (uint32_t i = 0; i < mSlots.size(); ++i) {
         Slot& done = *mSlots[i];
         if (!done.level || done.view != number || !hasRun(i))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The motion blur behind shutter_motion_blur.h: recorded into a host's command buffers, on a graph
-// of its own that imports the host's images. The same effect as the plugin's. What its functions of
-// the same names do that header says.
+// The motion blur behind shutter_motion_blur.h: recorded into a host's command buffers, on a
+// separate graph that imports the host's images. The same effect as the plugin's. Functions are
+// documented there under the same names.
 //
 // Nothing here throws. One thread at a time may use an object: a call of another one, or from
 // within a callback, is refused, except for living() and the destructor.
@@ -52,8 +52,8 @@ class EmbeddedMotionBlur {
     EmbeddedMotionBlur& operator=(const EmbeddedMotionBlur&) = delete;
 
     /// It binds pipelines, set 0 (and 1) and push constants of the compute and ray-tracing bind
-    /// points. Errors name what is wrong, and nothing was recorded; see hasLeftAPart(). Methods
-    /// that read no raster image, or need timed rays, are refused.
+    /// points. Error: names the fault; nothing was recorded (see hasLeftAPart()). Methods that read
+    /// no raster image, or need time-sampled rays, are errors.
     [[nodiscard]] core::Status record(
         VkCommandBuffer commands,
         uint32_t frame,
@@ -63,12 +63,12 @@ class EmbeddedMotionBlur {
 
     /// Not the pipelines of rays through HostRays.
     core::Status warmUp(const HostPlan& plan);
-    /// The same on a thread of its own, the only one that the effect ever starts.
+    /// The same on a background thread, the only one that the effect ever starts.
     core::Status startWarmUp(const HostPlan& plan);
     /// True: nothing was begun, or it is done.
     [[nodiscard]] core::Result<bool> isWarm();
 
-    /// Error: the GPU has not run what was recorded last under the number, or nothing is measured.
+    /// Error: the GPU has not run the last recording with that number, or measuring is off.
     [[nodiscard]] core::Result<HostReport> report(uint32_t frame) const;
 
     /// Whether the last record() that returned an error, of memory or the device, left a part of
@@ -81,8 +81,8 @@ class EmbeddedMotionBlur {
     /// Error: it is not below framesInFlight.
     core::Status closeView(uint32_t view);
 
-    /// Each recording is written once its frame is done (markDone, recording its number anew,
-    /// destruction), which then waits for the disk.
+    /// Each recording is written once its frame is complete (markDone, the next recording with its
+    /// number, destruction); that call then waits for the disk.
     /// \param frames [1, 9999]
     /// Error: the folder cannot be made or holds a dump, or the last one is not complete.
     [[nodiscard]] core::Status dump(const std::filesystem::path& folder, uint32_t frames);
@@ -118,7 +118,7 @@ class EmbeddedMotionBlur {
     core::Status record(Frame& frame, View& view, VkCommandBuffer commands);
     /// Declares the whole of a frame.
     void declare(Frame& frame, View& view);
-    /// Where what deforms goes, by the host's images; empty: it gives none.
+    /// Motion of deforming entities from the host's images; empty: there are none.
     [[nodiscard]] DrawWays prepareWays(const Frame& frame) const;
     /// Where shaders find the shutter's response; 0: it is a box.
     [[nodiscard]] VkDeviceAddress giveResponse(Frame& frame) const;
@@ -138,7 +138,7 @@ class EmbeddedMotionBlur {
     addBlended(Frame& frame, graph::ImageHandle picture, graph::BufferHandle surfaces);
     void deliver(Frame& frame, graph::ImageHandle picture) const;
     [[nodiscard]] InstantMotions describeInstants(Frame& frame, View& view);
-    /// Whether the GPU has not run what was recorded last under the number.
+    /// Whether the GPU has not yet run the last recording with that number.
     [[nodiscard]] bool isPending(uint32_t frame) const;
     [[nodiscard]] bool hasRun(uint32_t frame) const;
     void recordMark(uint32_t frame, VkCommandBuffer commands);
@@ -152,7 +152,7 @@ class EmbeddedMotionBlur {
     uint32_t mTimestampBits = 0;          ///< 0: nothing is measured
     bool mHasRays;
     bool mHasLeftAPart = false;
-    bool mTellsMethod = false; ///< the host was told that its default is gather
+    bool mTellsMethod = false; ///< the message that the default is gather was sent
     MotionBlur mEffect;
     HostPreparation mPreparation;
     Composite mComposite;
@@ -162,7 +162,7 @@ class EmbeddedMotionBlur {
     std::unique_ptr<HostDump> mDump;       ///< null: none was wanted yet
     /// By frame in flight, the number of the last recording of it that the GPU ran.
     gpu::Buffer mMarks;
-    std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
+    std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight
     std::vector<std::unique_ptr<View>> mViews; ///< as many: frames in flight include views
     HostPlan mWarming;
     std::future<core::Status> mWarmUp; ///< last: it is waited for before all else goes

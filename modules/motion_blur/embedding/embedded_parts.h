@@ -27,25 +27,25 @@ struct EmbeddedMotionBlur::Slot {
 
     std::unique_ptr<gpu::Frame> frame;
     graph::TransientPool pool;
-    /// Views of the host's images, made anew in each frame: a handle that is the last one's need
-    /// not be the same image. A deque, since the graph points to them.
+    /// Views of the host's images, recreated in each frame: an equal handle need not be the same
+    /// image. A deque, since the graph points to them.
     std::deque<gpu::Image> images;
     gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
     gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
     gpu::Buffer overlay;     ///< shader::OverlayTable, where inputs are shown
     gpu::Buffer response;    ///< shader::ResponseTable, where points of it are given
-    uint64_t handedOver = 0; ///< timeline value of what was recorded last
+    uint64_t handedOver = 0; ///< timeline value of the last recording
     uint32_t recordings = 0; ///< what the GPU marks once it has run the last of them
     bool isToldDone = true;  ///< by markDone(), or there is none
-    bool counts = false;     ///< what was recorded last has counters
-    uint32_t view = 0;       ///< of what was recorded last
+    bool counts = false;     ///< the last recording has counters
+    uint32_t view = 0;       ///< of the last recording
     /// The budget's level that the frame was recorded with; nothing: the budget has its time
     /// already.
     std::optional<size_t> level;
     std::string gaveUp;
 };
 
-/// What is kept from frame to frame.
+/// State of a view between frames.
 struct EmbeddedMotionBlur::View {
     explicit View(gpu::Device& device) : history(device) {}
 
@@ -70,7 +70,7 @@ struct EmbeddedMotionBlur::Frame {
     const HostInputs& inputs;
     const MotionBlurSettings& settings;
     bool wantsCounters = false;
-    /// Handles are of nothing: the graph is compiled and never run.
+    /// Uses placeholder handles: the graph is compiled but not executed.
     bool isImagined = false;
     /// What frames to come may have and this one does not is planned for, too: movers that follow
     /// their vectors, and more of them than a tile's list holds.

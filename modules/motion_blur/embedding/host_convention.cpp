@@ -95,7 +95,7 @@ core::Status checkProjection(
     return {};
 }
 
-/// What cannot be told without cameras.
+/// Names the field that requires cameras.
 const char* findNeedForCameras(const HostConvention& convention) {
     if (!convention.depth.isLinear)
         return "depthIsLinear is false";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion vectors and depth as hosts have them, for a host that has no image of both in the motion
-// blur's own convention (HostInputs::motionDepth). A pass makes that image of them. What the fields
-// mean shutter_motion_blur.h says.
+// Motion vectors and depth in a host's own conventions, for hosts without an image of both in the
+// effect's convention (HostInputs::motionDepth); a pass converts them to it. The fields are
+// documented in shutter_motion_blur.h.
 #pragma once
 
 #include "engine/core/result.h"
@@ -62,7 +62,7 @@ extern const HostImageRule kVectorsRule;   ///< HostVectors::image
 extern const HostImageRule kDepthRule;     ///< HostDepth::image
 extern const HostImageRule kBlurScaleRule; ///< HostScales::perPixel
 
-/// One sentence that names the field which is wrong. Cameras that are not given are not looked at.
+/// Error: one sentence that names the wrong field. Cameras that are not given are not checked.
 [[nodiscard]] core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture);
 [[nodiscard]] core::Status checkScales(const HostScales& scales, VkExtent2D picture);
 /// The same for all of a convention.

@@ -457,7 +457,7 @@ core::Status HostDump::write(const Slot& slot) const {
         SHUTTER_TRY(writeDumpFile(
             slot.folder / fmt::format("frame_{:04}_response.bin", slot.number), slot.response
         ));
-    // Last: what it names is there.
+    // Written last, when the files that it names exist.
     const std::string text =
         slot.manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
     return writeDumpFile(

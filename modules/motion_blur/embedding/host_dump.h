@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes what a host hands in, and the picture that comes of it, to a folder, so that
-// `shutter replay` draws it again. For each frame `frame_0000.json` says what the host said, and
-// names a file of plain texels for each image (docs/debugging_integration.md).
+// Writes a host's inputs and the resulting picture to a folder, for `shutter replay`. For each
+// frame, `frame_0000.json` holds the host's parameters and names a file of raw texels for each
+// image (docs/debugging_integration.md).
 #pragma once
 
 #include "engine/core/result.h"
@@ -25,8 +25,8 @@
 
 namespace shutter::motion_blur {
 
-/// What a host said of a recording: what a dump has beside its images.
-/// \param isPacked HostInputs::motionDepth counts, not the convention
+/// Describes a host's parameters of a recording: the part of a dump that is not images.
+/// \param isPacked HostInputs::motionDepth is used, not the convention
 /// \param hasResponse the dump holds the table of the shutter's response
 [[nodiscard]] nlohmann::ordered_json describeInputs(
     const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked, bool hasResponse
@@ -45,7 +45,7 @@ class HostDump {
     /// The next recording will be written.
     [[nodiscard]] bool wantsFrame() const { return mLeft > 0; }
 
-    /// The next recording of the view is the dump's first: it must not look at frames before.
+    /// Whether the next recording of the view is the dump's first, which must not use history.
     [[nodiscard]] bool startsView(uint32_t view) const;
 
     /// Declares the passes that read the inputs of a recording under a frame's number.
@@ -61,8 +61,9 @@ class HostDump {
     void addDrawn(graph::Graph& graph, uint32_t frame, const std::vector<BlendedSums>& parts);
     /// The same for the blurred picture, after all else.
     void addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandle picture);
-    /// The host's reveal, which is read as well; it refers to this, `inputs` and `recorder`.
-    /// \param recorder binds what is recorded
+    /// Wraps the host's reveal so that its images are read back, too; it refers to this, `inputs`
+    /// and `recorder`.
+    /// \param recorder the recorder of commands
     [[nodiscard]] OwnReveal
     wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder);
     /// The recording failed: nothing is written of it.

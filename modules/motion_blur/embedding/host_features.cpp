@@ -131,8 +131,7 @@ core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily) {
     V12 v12{kV12, &v13};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     vkGetPhysicalDeviceFeatures2(device, &features);
-    // Each device of Vulkan 1.3 has them; an instance that is made for less does not ask the
-    // driver.
+    // Every Vulkan 1.3 device has them; an instance of a lower version does not query the driver.
     if (!v12.bufferDeviceAddress && !v13.synchronization2 && !v13.maintenance4)
         return core::makeError("motion blur: the instance is not made for Vulkan 1.3 "
                                "(VkApplicationInfo::apiVersion)");

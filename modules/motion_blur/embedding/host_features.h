@@ -22,9 +22,9 @@ namespace shutter::motion_blur {
 /// are faster on GPUs with it.
 [[nodiscard]] bool enablesSubgroupSizes(const VkPhysicalDeviceFeatures2& enabled);
 
-/// Whether the device could have the features enabled, and the queue family runs compute shaders;
-/// one sentence that names what is missing where it cannot. What a host did enable Vulkan does not
-/// tell anybody; the validation layer and checkEnabledFeatures() do.
+/// Checks that the device supports the features and that the queue family has compute shaders.
+/// Error: one sentence that names what is missing. Vulkan has no query for enabled features; the
+/// validation layer and checkEnabledFeatures() check those.
 [[nodiscard]] core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily);
 
 } // namespace shutter::motion_blur

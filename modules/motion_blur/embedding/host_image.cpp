@@ -187,7 +187,7 @@ core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExt
 }
 
 uint64_t leastBytes(VkExtent2D extent, VkFormat format) {
-    // Depth beside a stencil has at least 4 bytes.
+    // Depth with a stencil has at least 4 bytes.
     const bool hasStencil = (gpu::aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
     return uint64_t(extent.width) * extent.height * (hasStencil ? 4 : gpu::texelBytes(format));
 }

@@ -184,7 +184,7 @@ core::Status checkTables(const HostInputs& inputs, const Method& method) {
     return {};
 }
 
-/// The camera's motion is told by frame constants, or by cameras.
+/// Camera motion requires frame constants or cameras.
 core::Status checkCamera(const HostInputs& inputs, const Method& method) {
     if (inputs.rays.frameConstants != 0)
         return {};
@@ -195,7 +195,7 @@ core::Status checkCamera(const HostInputs& inputs, const Method& method) {
     return checkScales(inputs.convention.scales, pictureOf(inputs));
 }
 
-/// Vectors say how a mover without matrices moves.
+/// Movers without matrices require motion vectors.
 core::Status checkMoversAreKnown(const HostInputs& inputs) {
     if (inputs.motionDepth.image || inputs.convention.vectors.image.image)
         return {};
@@ -210,7 +210,7 @@ core::Status checkMoversAreKnown(const HostInputs& inputs) {
     return {};
 }
 
-/// Ids say which pixels a mover is seen in.
+/// Movers require ids that mark their pixels.
 core::Status checkIds(const HostInputs& inputs, const Method& method, const HostAbilities& host) {
     if (method.readsInstantMotions && isOneWorld(inputs))
         return {};
@@ -312,7 +312,7 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     return {};
 }
 
-/// What is not at the raster instant was of another place.
+/// Keys other than the raster's belong to another place.
 void keepRasterKey(HostMotion& motion, double rasterTime, std::vector<HostMover>& movers) {
     const auto keys = motion.keys;
     if (!keys.data())

@@ -44,7 +44,7 @@ extern const HostImageRule kBlendedRule;
 [[nodiscard]] HostMotionFrame
 describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings);
 
-/// What a host said when the effect was made.
+/// The host's declarations at the creation of the effect.
 struct HostAbilities {
     ImageLimits images;
     bool hasRays = false; ///< HostDevice::rayTier is not None

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a host hands over: its device once, its images in each frame. Fields whose meaning is not
-// said here are those of the same name in shutter_motion_blur.h.
+// Inputs of a host: its device once, its images in each frame. Fields without a comment are
+// documented under the same name in shutter_motion_blur.h.
 #pragma once
 
 #include "engine/core/result.h"
@@ -52,11 +52,11 @@ struct HostDevice {
 /// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
 /// RayNeed::Any fills those tables.
 struct HostRays {
-    /// Custom index of an instance: its mesh id. Null: nothing but sky lies behind what moves.
+    /// Custom index of an instance: its mesh id. Null: only sky lies behind movers.
     VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
     VkBuffer tlasBuffer = VK_NULL_HANDLE;   ///< that it lies in; null only where tlas is
     VkDescriptorSet scene = VK_NULL_HANDLE; ///< bindless textures, of HostDevice::sceneLayout
-    /// shader::FrameConstants, whose entityCount bounds the ids that are looked up.
+    /// shader::FrameConstants; entityCount limits valid ids.
     VkDeviceAddress frameConstants = 0;
     bool hasBlended = false; ///< blended surfaces may be in the picture
 };
@@ -68,15 +68,15 @@ struct HostLastFrame {
     HostImage entityId;
 };
 
-/// The first format of each image is its own: what has another one, or is part of a larger image,
-/// is copied first.
+/// The first format listed for each image is native: images of another format, or that are part of
+/// a larger image, are copied first.
 struct HostInputs {
     uint32_t width = 0;
     uint32_t height = 0;
     HostImage color;
     HostImage motionDepth; ///< null: made of `convention`
-    /// Where motionDepth.image is null. For Method::readsCamera its `cameras` and `scales`, without
-    /// perPixel, count beside motionDepth, too, unless rays.frameConstants is given.
+    /// Used if motionDepth.image is null. For Method::readsCamera its `cameras` and `scales`,
+    /// without perPixel, are also used with motionDepth, unless rays.frameConstants is given.
     HostConvention convention;
     HostImage normal;
     HostImage entityId;

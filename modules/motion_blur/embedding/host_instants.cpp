@@ -145,9 +145,9 @@ class Builder {
             const HostRaster::Mover* const then = moverThen[row];
             const uint32_t moverNow = rows[row] == kNone ? kNone : mMoverOfRow[rows[row]];
             if (rows[row] != kNone && moverNow == kNone && !then)
-                continue; // stood still and does
+                continue; // was and is static
             const bool bothDeform = then && then->deforms && moverNow != kNone && !mWays[moverNow];
-            // Without both transforms, or what its pixels do, nobody knows where it was, or is.
+            // Without both transforms or its pixels' motion, its place is unknown.
             if (bothDeform && mFrame.knowsLastDeformed)
                 layer.setMover(row, shader::kDeformedMover);
             else if (!then || then->deforms || moverNow == kNone || !mWays[moverNow])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of a frame's instants from what a host says of its motion.
+// Tables of a frame's instants from a host's description of motion.
 #pragma once
 
 #include "engine/core/result.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a host's camera and entities move during the exposure, for methods that look up where
-// surfaces are at its instants (Method::readsInstantMotions).
+// Motion of a host's camera and entities during the exposure, for methods that look up surfaces at
+// its instants (Method::readsInstantMotions).
 #pragma once
 
 #include <glm/glm.hpp>

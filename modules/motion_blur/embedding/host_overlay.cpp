@@ -63,7 +63,7 @@ shader::OverlayTable makeOverlayTable(const HostInputs& inputs, const MotionBlur
         return table;
     table.panels |=
         bitOf(shader::kPanelCamera) | bitOf(shader::kPanelWorld) | bitOf(shader::kPanelJitter);
-    // The exposure of motionDepth is not told, so there is nothing to take the camera's part from.
+    // The exposure of motionDepth is unknown, so the camera's part cannot be computed.
     if (!inputs.motionDepth.image)
         table.panels |= bitOf(shader::kPanelObjects);
     table.prepare = makePrepareTable(convention, pictureOf(inputs));

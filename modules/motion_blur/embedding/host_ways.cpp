@@ -93,7 +93,7 @@ HostCamera CameraWay::at(const BetweenKeys& place) const {
     HostCamera camera = mCameras[place.from];
     const HostCamera& to = mCameras[place.to];
     camera.clipFromView += (to.clipFromView - camera.clipFromView) * place.share;
-    // One that is static keeps its bits, which tell that nothing before it moves.
+    // A static camera stays bit-identical, which marks the picture as static.
     if (camera.viewFromWorld != to.viewFromWorld)
         camera.viewFromWorld =
             glm::inverse(math::interpolate(mPoses[place.from], mPoses[place.to], place.share));

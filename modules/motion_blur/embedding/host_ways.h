@@ -24,8 +24,8 @@ struct HostCamera {
     [[nodiscard]] math::dmat4 pictureFromWorld(const math::uvec2& sizePx) const;
 };
 
-/// Nothing: the projection is neither of the two, or looks the other way. A key that has the form
-/// already keeps its bits.
+/// Nothing: the projection is neither of the two, or faces the other way. A key in that form
+/// already is returned bit-identical.
 [[nodiscard]] std::optional<HostCamera> normalize(const HostCameraKey& key, bool aheadIsPlusZ);
 
 /// Whether the last row is (0, 0, 0, 1), to rounding.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `resolved`, and rays where what was looked up is missing or uncertain: the dial from a post
-// effect to the truth.
+// `resolved`, with rays where looked-up samples are missing or uncertain: scales from a post effect
+// to ground truth.
 #include "spirv/motion_blur/adaptive.comp.h"
 
 #include "engine/gpu/vulkan.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each pixel saw at each instant, looked up by the entities' own motion in this frame's raster
-// and the last one's.
+// Looks up the sample of each pixel at each instant, by the entities' motion, in this frame's
+// raster and the last one's.
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"

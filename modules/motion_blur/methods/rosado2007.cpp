@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rosado 2007, "Motion Blur as a Post-Processing Effect", GPU Gems 3, chapter 27: the mean of
-// samples along the camera's own motion, which depth alone tells. Objects that move are taken to be
-// static.
+// samples along camera motion, computed from depth. Moving objects are treated as static.
 #include "spirv/motion_blur/own_velocity.comp.h"
 #include "spirv/motion_blur/rosado2007.comp.h"
 

@@ -90,7 +90,7 @@ void BlendedSurfaces::count(uint32_t slot, render::Counters& counters) const {
     if (plan.layer.empty())
         return;
     const shader::InstantSurfaces rectangle = plan.layer.surfaces();
-    // Two images of what is drawn and, of several parts, the sum of those before.
+    // Two images of the drawn part and, with several parts, the sum of the earlier ones.
     const uint64_t perPixel = plan.layer.partCount > 1 ? 24 : 16;
     counters["blended instants"] = rectangle.instantCount;
     const glm::uvec2 allocated = shader::sizeInSteps(rectangle.sizePx);

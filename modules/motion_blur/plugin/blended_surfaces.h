@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is seen through in a frame: the blended surfaces that leave the raster are planned, drawn
-// and composited over the blurred picture, and particles get the instants that they are drawn over.
+// Transparency of a frame: plans, draws and composites the blended surfaces that leave the raster
+// over the blurred picture, and gives particles the instants of their background.
 #pragma once
 
 #include "engine/extract/particle_instants.h"

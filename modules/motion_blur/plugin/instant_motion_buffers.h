@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// extract::InstantTables on the device, and what they need of the frame before.
+// extract::InstantTables on the device, and their data of the previous frame.
 #pragma once
 
 #include "engine/extract/instant_tables.h"
@@ -27,9 +27,9 @@ class InstantMotionBuffers {
     [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
 
     /// Computes a frame's tables.
-    /// \param hasHistory things are looked up in the raster of the frame before, which
-    /// ExtractContext::lastRaster shows where it is not kept, and the next frame may look up things
-    /// in this one's (ViewFacts::isFollowed)
+    /// \param hasHistory surfaces are looked up in the previous frame's raster, which is
+    /// ExtractContext::lastRaster if it was not stored, and the next frame may look up surfaces in
+    /// this one's (ViewFacts::isFollowed)
     void extract(const render::ExtractContext& context, uint32_t instantCount, bool hasHistory);
 
     /// \param context of the frame that extract() was called for; the slot's last frame must be
@@ -47,7 +47,7 @@ class InstantMotionBuffers {
 
     /// Whether the context's frame was the last one and is drawn again: the one before it counts.
     [[nodiscard]] bool isAgain(const render::ExtractContext& context) const;
-    /// What was kept before the newest raster is the newest again.
+    /// Discards the newest raster; the one before it becomes the newest.
     void stepBack();
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;

@@ -46,7 +46,7 @@ void explainCrowds(render::FinishedFrame& frame) {
 
 constexpr const char* kNoPicture = "the frame is drawn for what the next one looks up in it";
 
-/// In place of a level of the budget: the frame's time tells nothing of any.
+/// In place of a level of the budget: the frame's time is not used.
 constexpr size_t kNoLevel = SIZE_MAX;
 
 } // namespace
@@ -187,8 +187,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         inputs.instantMotions = mInstantMotions.declare(context);
     const bool keepsOnly = onlyKeeps(context.facts);
     const bool standsIn = mStandIn.has_value();
-    // Counts of blocks choose how the next frames' still pixels are copied, whoever else reads
-    // them.
+    // Counts of blocks choose how the next frames' still pixels are copied, whether or not they are
+    // read otherwise.
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
     inputs.wantsMethodCounters = context.facts.countersWanted;
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();

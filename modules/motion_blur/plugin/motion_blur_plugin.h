@@ -17,7 +17,7 @@
 
 namespace shutter::motion_blur {
 
-/// What becomes of a frame whose method's pipelines are still being made ahead.
+/// Behaviour of a frame whose method's pipelines are still being made ahead.
 enum class UntilReady : uint8_t {
     Wait,    ///< it waits for them: pictures do not depend on time
     StandIn, ///< Method::standIn draws it
@@ -33,8 +33,8 @@ class MotionBlurPlugin : public render::PostEffect {
         const BlurBudget& budget = {}
     );
 
-    /// For the frames to come; settings and budget must be valid. The budget starts anew where
-    /// either of them changed.
+    /// For the frames to come; settings and budget must be valid. The budget restarts if either of
+    /// them changed.
     void configure(
         const MotionBlurSettings& settings,
         const BlurBudget& budget,
@@ -53,7 +53,7 @@ class MotionBlurPlugin : public render::PostEffect {
     /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
-    /// For methods that look instants up.
+    /// True for methods that look up instants.
     [[nodiscard]] bool readsEdges() const override;
     /// For methods that blur the raster.
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
@@ -76,7 +76,7 @@ class MotionBlurPlugin : public render::PostEffect {
     void finish(render::FinishedFrame& frame) override;
 
   private:
-    /// What was declared for a slot's frame.
+    /// State of a slot's frame.
     struct Drawn {
         size_t level = 0;        ///< of the budget, or kNoLevel
         bool keepsOnly = false;  ///< onlyKeeps()
@@ -92,10 +92,10 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
 
-    /// Whether the next frame's method looks things up in the raster of the one before.
+    /// Whether the next frame's method looks up surfaces in the raster of the one before.
     [[nodiscard]] bool readsHistory() const;
 
-    /// Whether the frame is drawn for what the next one looks up, and the method keeps something.
+    /// Whether the frame is drawn only as history for the next one, and the method stores history.
     [[nodiscard]] bool onlyKeeps(const render::ViewFacts& facts) const;
 
     MotionBlurSettings mWanted;

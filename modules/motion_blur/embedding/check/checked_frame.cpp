@@ -32,8 +32,8 @@ seeFrom(const dmat4& toFromPicture, bool isPerspective, const dvec2& place, doub
     return seen.z > 0.0 ? std::optional(dvec2(seen) / seen.z) : std::nullopt;
 }
 
-/// By how many pixels what is seen in the middle of the picture, far away, is elsewhere by another
-/// camera; infinity: behind it.
+/// Returns the distance in pixels between the images of a far point at the picture's centre under
+/// two cameras; infinity: behind the other one.
 double measureTurn(const HostCamera& from, const HostCamera& to, VkExtent2D picture) {
     const dvec2 middle = 0.5 * dvec2(picture.width, picture.height);
     const dmat4 map =
@@ -244,7 +244,7 @@ std::vector<Finding> checkFrame(CheckedFrame& now, const CheckedFrame* last) {
     checkCameras(now, last, findings);
     checkHistory(now, last, findings);
     const bool isCut = now.facts.convention.scales.isCut;
-    // Samples that lie where the depth says they do not agree with no camera.
+    // Samples at wrong depths agree with no camera.
     const bool isDepthWrong = checkDepthDirection(now, findings);
     if (now.facts.hasVectors && hasCameras(now.facts) && !isDepthWrong && !isCut)
         checkVectors(now, last, findings);
@@ -253,7 +253,7 @@ std::vector<Finding> checkFrame(CheckedFrame& now, const CheckedFrame* last) {
     if (!isCut)
         checkKeys(now, last, findings);
     checkIds(now, last, findings);
-    // What is said of the camera comes first: movers are seen by it.
+    // The camera is checked first: movers depend on it.
     const bool isCameraWrong =
         isDepthWrong ||
         hasFound(

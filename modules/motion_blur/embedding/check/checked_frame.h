@@ -23,7 +23,7 @@ namespace shutter::motion_blur {
 struct HostInputs;
 struct MotionBlurSettings;
 
-/// What a host said of a recording, as far as it can be compared with the images.
+/// The declarations of a host for a recording that can be compared with the images.
 struct CheckFacts {
     struct Mover {
         uint32_t row = 0;
@@ -49,9 +49,9 @@ struct CheckFacts {
     HostCameras close; ///< before: its closing
     bool hasIds = false;
     bool hasDeformed = false; ///< CheckSample::deformed counts
-    bool readsMotion = false; ///< the method reads HostMotion; else what is of it is empty
+    bool readsMotion = false; ///< the method reads HostMotion; otherwise its fields are empty
     uint32_t noEntity = 0xFFFFFFFF;
-    uint32_t rowCount = 0;           ///< 0: not said
+    uint32_t rowCount = 0;           ///< 0: unknown
     std::vector<HostCameraKey> keys; ///< ahead is -Z
     size_t rasterKey = 0;            ///< of `keys`
     std::vector<Mover> movers;
@@ -68,7 +68,7 @@ struct CheckFacts {
 
 /// Sentences of the same kind are not repeated in every frame.
 enum class CheckKind : uint8_t {
-    LeftOut, ///< no mistake: says which checks cannot be made
+    LeftOut, ///< no mistake: names the checks that cannot be made
     ColorNan,
     ColorInfinite,
     ColorNegative,
@@ -107,7 +107,7 @@ struct Finding {
     std::string sentence; ///< without a full stop
 };
 
-/// Fills in all but `number`. What it holds is the facts' own.
+/// Fills in all but `number`. The facts own copies of everything.
 void describeFacts(const HostInputs& inputs, const MotionBlurSettings& settings, CheckFacts& facts);
 
 /// Units of depth that hosts take for others.
@@ -124,7 +124,8 @@ struct CheckedFrame {
     /// unknown.
     double keyShare = -1.0;
     bool areKeysReversed = false;
-    uint32_t unusedHistory = 0; ///< frames up to this one that had one before them, and did not say
+    uint32_t unusedHistory = 0; ///< frames up to this one that followed another without declaring
+                                ///< it
 };
 
 /// \param last the frame before of the same view, or null
@@ -132,7 +133,7 @@ struct CheckedFrame {
 
 // The parts of checkFrame().
 
-/// Ranges, NaN and infinity, what depth values tell by themselves.
+/// Checks ranges, NaN and infinity, and depth values on their own.
 void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings);
 /// Whether nearly all depth lies at the near plane, as it does where its direction is wrong.
 [[nodiscard]] bool checkDepthDirection(const CheckedFrame& now, std::vector<Finding>& findings);
@@ -142,8 +143,8 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
 void checkCameras(
     const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings
 );
-/// Without vectors: the last frame's depth against where the cameras say that this frame's surfaces
-/// were.
+/// Without vectors: compares the last frame's depth with this frame's surfaces reprojected by the
+/// cameras.
 void checkReprojection(
     const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
 );
@@ -161,9 +162,9 @@ void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Findi
 struct CheckPoint {
     glm::dvec2 place{0.0};  ///< pixels of the picture
     glm::dvec2 motion{0.0}; ///< pixels, by `pixelsPerUnit` and without declared jitter
-    glm::dvec2 camera{0.0}; ///< what the cameras imply for what is static
+    glm::dvec2 camera{0.0}; ///< implied by the cameras for static surfaces
     float metres = 0.0f;
-    /// Depth from the camera of the frame before of what is static; not above 0: behind it.
+    /// Depth of static surfaces from the previous frame's camera; 0 or less: behind it.
     float metresBefore = 0.0f;
     bool isSky = false;
     uint32_t id = 0;
@@ -179,8 +180,8 @@ struct CheckPoint {
 /// Whether cameras imply anything for the frame.
 [[nodiscard]] bool hasCameras(const CheckFacts& facts);
 
-/// The samples with finite vectors and depth.
-/// \param said what the host said, or what it might have meant
+/// Returns the samples with finite vectors and depth.
+/// \param said the host's declarations, or a hypothesis
 [[nodiscard]] std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& said);
 
 /// Whether any finding is of one of the kinds.
@@ -198,7 +199,7 @@ hasFound(const std::vector<Finding>& findings, std::initializer_list<CheckKind> 
 [[nodiscard]] double
 measureApart(const HostCamera& from, const HostCamera& to, VkExtent2D picture, double metres);
 
-/// Median distance of what is drawn, metres.
+/// Median depth of the drawn surfaces, metres.
 [[nodiscard]] double findTypicalMetres(const std::vector<CheckPoint>& points);
 
 } // namespace shutter::motion_blur

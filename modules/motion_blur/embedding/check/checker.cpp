@@ -24,7 +24,7 @@ namespace {
 
 using graph::Access;
 
-constexpr uint64_t kQuietFrames = 600; ///< until a sentence is told again
+constexpr uint64_t kQuietFrames = 600; ///< until a sentence is reported again
 
 // Push constants, as the shaders declare them.
 struct PicturePush {

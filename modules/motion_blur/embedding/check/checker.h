@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Looks at a host's inputs while they are blurred: passes gather totals and samples, which are
-// compared once the GPU is done with the frame. It waits for nothing.
+// Checks a host's inputs: passes gather totals and samples, which are compared once the GPU has
+// finished the frame. Never waits.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -49,7 +49,7 @@ class HostChecker {
     /// The recording failed: nothing will be read of it.
     void drop(uint32_t frame) { mSlots[frame].isPending = false; }
 
-    /// The GPU is done with the frame, or will never run it: tells what is found.
+    /// The GPU has finished the frame, or will never run it: reports the findings.
     void finish(uint32_t frame);
     /// The same of all frames, in the order of their recordings.
     void finishAll();
@@ -57,7 +57,7 @@ class HostChecker {
     /// The view was closed.
     void forget(uint32_t view) { mLast[view].reset(); }
 
-    /// What was evaluated last of a view; null: nothing yet.
+    /// The last evaluated frame of a view; null: none yet.
     [[nodiscard]] const CheckedFrame* last(uint32_t view) const { return mLast[view].get(); }
 
   private:
@@ -82,7 +82,8 @@ class HostChecker {
     std::unique_ptr<CheckedFrame> mNow;               ///< is filled and becomes the last one
     uint32_t mSerial = 0;
     uint64_t mEvaluated = 0;
-    std::array<uint64_t, size_t(CheckKind::Count)> mTold{}; ///< evaluation it was told in; 0: never
+    std::array<uint64_t, size_t(CheckKind::Count)> mTold{}; ///< evaluation that reported it; 0:
+                                                            ///< never
 };
 
 class HostUnsaid {
@@ -90,12 +91,12 @@ class HostUnsaid {
     /// \param device of the host's images
     explicit HostUnsaid(VkDevice device) : mDevice(device) {}
 
-    /// Tells what is not said of images that are given, each once.
+    /// Reports images with unknown usage or sample count, each once.
     void ask(const HostInputs& inputs, const HostMessage& message);
 
   private:
     VkDevice mDevice;
-    uint32_t mAsked = 0;       ///< a bit for each image whose usage or samples were asked for
+    uint32_t mAsked = 0;       ///< a bit for each image reported
     uint32_t mExtentAsked = 0; ///< the same for its extent
 };
 

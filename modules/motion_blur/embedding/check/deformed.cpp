@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the pixels of what deforms go, by deformedMotion, against their motion vectors: from
-// shutter open to close both must be the same way.
+// Compares deformedMotion with motion vectors for pixels of deforming entities: from shutter open
+// to close both must agree.
 #include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 using math::dvec2;
 using math::dvec4;
 
-constexpr size_t kLeastDeformed = 24; ///< fewer samples tell nothing
+constexpr size_t kLeastDeformed = 24; ///< minimum number of samples for a finding
 constexpr double kLeastMotionPx = 1.0;
 constexpr double kDeformedTolerancePx = 0.5;
 constexpr double kDeformedToleranceShare =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host says of a recording, kept until its images have been looked at.
+// Copies a host's declarations for a recording until its images have been checked.
 #include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
@@ -19,7 +19,7 @@ namespace {
 /// megabyte or so.
 constexpr size_t kMostMovers = 4096;
 
-/// A pair that looks along -Z.
+/// A pair of cameras with -Z forward.
 HostCameras makePair(const HostCamera& now, const HostCamera& before) {
     HostCameras pair;
     pair.areGiven = true;

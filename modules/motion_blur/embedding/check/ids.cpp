@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host's ids say of its movers, and whether they last.
+// Checks a host's ids against its movers, and their persistence between frames.
 #include "modules/motion_blur/embedding/check/last_frame.h"
 
 #include <fmt/format.h>
@@ -32,9 +32,9 @@ void checkListedMovers(const CheckedFrame& now, std::vector<Finding>& findings) 
     const FineDepth depth(now, facts);
     for (const CheckFacts::Mover& mover : facts.movers) {
         if (mover.row >= seen.size())
-            return; // beyond what is looked for
+            return; // more than are tracked
         anySeen = anySeen || seen[mover.row];
-        // Behind a wall it is in nobody's view.
+        // Hidden behind a wall, it is not counted.
         inView += mover.isInView && !seen[mover.row] && depth.isNear(mover.place, mover.metres);
     }
     if (anySeen || inView == 0)
@@ -102,14 +102,14 @@ uint64_t lastingId(const CheckFacts& facts, uint32_t row) {
     return row < facts.rowIds.size() ? facts.rowIds[row] : row;
 }
 
-/// Where a sample's surface was in the frame before, pixels and metres; nothing: nobody tells.
+/// Place of a sample's surface in the previous frame, pixels and metres; nothing: unknown.
 std::optional<std::pair<dvec2, double>>
 findBefore(const CheckFacts& facts, const CheckPoint& point) {
     const bool hasCameras = facts.convention.cameras.areGiven;
     const double metres = hasCameras ? point.metresBefore : point.metres;
     if (!facts.hasVectors)
         return std::pair(point.place - point.camera, metres);
-    // Over an exposure, of which nobody tells how long it is.
+    // Over an exposure of unknown length.
     if (facts.isNative && hasCameras)
         return std::pair(point.place - point.camera, metres);
     if (facts.isNative && !(glm::length(point.motion) < 1.5))

@@ -30,7 +30,7 @@ class Keys {
         mFramePx = apart(mNow, mBefore);
     }
 
-    /// What is wrong with the key at the raster instant; empty: nothing.
+    /// Describes the fault of the key at the raster instant; empty: none.
     [[nodiscard]] std::string describeRaster() const {
         const HostCamera& raster = mWay.atKey(mFacts.rasterKey);
         const double off = apart(mNow, raster);
@@ -67,8 +67,8 @@ class Keys {
         return {apart(mNow, at(time)), part * mShare * mFramePx, time};
     }
 
-    /// Whether the keys go the other way in time. Where the raster instant is in the middle, its
-    /// own key does not tell.
+    /// Whether the keys are reversed in time. With the raster instant in the middle, its key does
+    /// not reveal that.
     [[nodiscard]] bool areReversed(const Exposure& exposure) const {
         // One end of a longer exposure may lie beyond the frame before.
         if (exposure.wantedPx < 2.0 * kSamePx || exposure.wantedPx > mFramePx)
@@ -157,7 +157,7 @@ void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>
     const Keys keys(facts, findTypicalMetres(makePoints(now, facts)));
     if (std::string sentence = keys.describeRaster(); !sentence.empty())
         return tell(std::move(sentence));
-    // With motionDepth nobody tells the exposure's share.
+    // With motionDepth the exposure's share is unknown.
     if (facts.isNative || !(keys.share() > 0.0))
         return;
     const Keys::Exposure exposure = keys.measure();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last frame's depth and ids, to be looked up where this frame's surfaces were; the checks' own
-// files alone include this.
+// Lookup of the last frame's depth and ids at the former places of this frame's surfaces. Included
+// only by the checks' sources.
 #pragma once
 
 #include "engine/math/math.h"
@@ -39,23 +39,24 @@ class FineGrid {
     std::vector<double> mRows;
 };
 
-/// Depth of a frame by what was said of it.
+/// Depth of a frame, decoded by the host's declarations.
 class FineDepth {
   public:
-    /// \param said of `frame`
+    /// \param said the declarations for `frame`
     FineDepth(const CheckedFrame& frame, const CheckFacts& said);
 
     /// Whether the surface that is seen at the place has that depth: to a pixel, or two percent.
     [[nodiscard]] Match compare(const math::dvec2& place, double metres) const;
 
-    /// Whether what is seen at the place is about as far away: within a tenth, and not behind it.
+    /// Whether the surface at the place is at about that depth: within a tenth, and not behind it.
     [[nodiscard]] bool isNear(const math::dvec2& place, double metres) const;
 
     [[nodiscard]] const FineGrid& grid() const { return mGrid; }
 
   private:
     FineGrid mGrid;
-    /// What is linear in the picture of a plane: the depth, or its inverse in perspective.
+    /// A value that is linear across a plane in the picture: depth, or inverse depth in
+    /// perspective.
     std::vector<double> mLinear;
     bool mIsPerspective = true;
 };

@@ -29,7 +29,7 @@ constexpr double kMoverTolerancePx = 0.5;
 constexpr double kMoverToleranceShare =
     0.25; ///< of the own motion: paths are not straight, nor even
 
-/// Two times that motion is told between, with the cameras then.
+/// Two times between which motion is given, with their cameras.
 struct Span {
     double from = 0.0;
     double to = 1.0;
@@ -61,7 +61,7 @@ struct MoverSample {
     uint32_t row = 0;
 };
 
-/// The movers of a frame, and what is seen of them.
+/// The movers of a frame and their visible samples.
 class MoverFrame {
   public:
     MoverFrame(const CheckedFrame& frame, const Span& span) : mFacts(frame.facts), mSpan(span) {
@@ -280,7 +280,7 @@ class MoverCheck {
         );
     }
 
-    /// Whether the last frame shows the mover where the move says that it was.
+    /// Whether the last frame shows the mover at the place implied by its motion.
     [[nodiscard]] Match compareLast(const MoverSample& sample, const MoverFrame::Move& move) const {
         const auto before = mFrame.findBefore(sample, move);
         if (!before || !std::isfinite(before->place.x + before->place.y))
@@ -350,7 +350,7 @@ class MoverCheck {
         const auto areOff = [](const Matches& matches, size_t tenths) {
             return 10 * count(matches, Match::Other) >= tenths * matches.size();
         };
-        // What speeds up is off in a frame, and what turns fast at its rim.
+        // Acceleration causes mismatches in single frames, and fast rotation at the rim.
         const bool lasts = hasVectors() && mLast && mLast->facts().hasVectors &&
                            mLast->samples.size() >= kLeastSamples &&
                            areOff(mLast->compareVectors(), 7);

@@ -13,7 +13,7 @@ using math::dvec2;
 
 namespace {
 
-/// Cameras of motionDepth are over a frame, and its vectors over an exposure that nobody tells.
+/// Cameras of motionDepth span a frame, its vectors an exposure of unknown length.
 void scaleToExposure(std::vector<CheckPoint>& points) {
     std::vector<double> shares;
     for (const CheckPoint& point : points) {
@@ -45,8 +45,7 @@ std::optional<size_t> judge(const Reading& said, const Reading& guess) {
         const double motion = std::max(
             glm::length(guess.cameraOf(point)), glm::length(said.cameraOf(said.points[i]))
         );
-        // Where the camera hardly moves, vectors of what moves by itself agree with it once they
-        // are made short enough.
+        // With little camera motion, movers' vectors agree with it if scaled down enough.
         if (motion < 1.0 || glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
             continue;
         ++telling;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Motion vectors and cameras as a host said, or as it might have meant, such as another field of
-// view than the picture was drawn with; the checks' own files alone include this.
+// Motion vectors and cameras as the host declared them, or as a hypothesis about a mistake, such as
+// a field of view that differs from the picture's. Included only by the checks' sources.
 #pragma once
 
 #include "engine/math/math.h"
@@ -14,7 +14,7 @@
 
 namespace shutter::motion_blur {
 
-inline constexpr size_t kLeastPoints = 96;      ///< fewer tell nothing
+inline constexpr size_t kLeastPoints = 96;      ///< minimum number of points for a finding
 inline constexpr size_t kLeastTelling = 48;     ///< points at which a mistake would show
 inline constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
 inline constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
@@ -26,7 +26,7 @@ struct Reading {
     bool isSwapped = false;
     bool haveCamera = true;
     std::string sentence;
-    bool isAlternative = false; ///< told besides what explains as much
+    bool isAlternative = false; ///< reported together with other hypotheses that explain as much
 
     [[nodiscard]] math::dvec2 motionOf(const CheckPoint& point) const {
         return scale * (isSwapped ? math::dvec2(point.motion.y, point.motion.x) : point.motion);
@@ -46,12 +46,13 @@ struct Reading {
     }
 };
 
-/// The frame as said.
+/// The frame as declared.
 [[nodiscard]] Reading read(const CheckedFrame& frame, const CheckFacts& facts);
-/// The frame as the host said.
+/// The frame as the host declared it.
 [[nodiscard]] Reading readSaid(const CheckedFrame& frame);
 
-/// How many points the guess explains; nothing where it is no better than what the host said.
+/// Number of points that the hypothesis explains; nothing if it is no better than the host's
+/// declaration.
 [[nodiscard]] std::optional<size_t> judge(const Reading& said, const Reading& guess);
 
 /// Points that are not the sky whose vectors are the camera's.
@@ -60,7 +61,7 @@ struct Reading {
 /// Nothing: there are fewer than `least`. Changes their order.
 [[nodiscard]] std::optional<double> takeMedian(std::vector<double>& values, size_t least);
 
-/// What is the same at all that is static, beyond the camera's part: jitter.
+/// Checks for an offset shared by all static surfaces, beyond camera motion: jitter.
 void checkOffset(
     CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
 );

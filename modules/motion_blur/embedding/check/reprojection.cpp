@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cameras against the last frame's depth, for a host without motion vectors: where the cameras say
-// that this frame's surfaces were, that frame must show surfaces at their distance. As with vectors
-// (host_check_vectors.cpp), what a host may have got wrong is tried, one mistake at a time.
+// Checks cameras against the last frame's depth, for a host without motion vectors: at the
+// reprojected places of this frame's surfaces, that frame must show surfaces at their depth. As
+// with vectors (vectors.cpp), possible mistakes are tried one at a time.
 #include "modules/motion_blur/embedding/check/last_frame.h"
 #include "modules/motion_blur/embedding/check/reading.h"
 
@@ -19,7 +19,7 @@ namespace {
 using math::dmat4;
 using math::dvec2;
 
-constexpr size_t kLeastKnown = 200;  ///< fewer samples tell nothing
+constexpr size_t kLeastKnown = 200;  ///< minimum number of samples for a finding
 constexpr size_t kLeastTelling = 48; ///< samples that a mistake explains
 constexpr size_t kLensStride = 3;    ///< of the samples that a lens is fitted to
 
@@ -33,7 +33,7 @@ struct Found {
     [[nodiscard]] size_t known() const { return same + other; }
 };
 
-/// The frames as the host said, or as it might have meant.
+/// The frames as the host declared them, or a hypothesis.
 struct Said {
     CheckFacts now;
     CheckFacts last;
@@ -46,7 +46,7 @@ class Reprojection {
           mFound(reproject(mSaid)) {}
 
     [[nodiscard]] std::optional<Finding> findMistake() {
-        // What a camera leaves behind in a frame is less than what it goes on to see, as a rule.
+        // Usually, less leaves the view in a frame than stays in it.
         if (mFound.outside > mFound.known())
             std::replace(
                 mFound.matches.begin(), mFound.matches.end(), Match::Unknown, Match::Other

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is left between vectors and cameras where things are static: the same everywhere, as jitter
-// makes it, or what no known mistake explains.
+// Residual between vectors and cameras on static surfaces: the same everywhere, as from jitter, or
+// not explained by any known mistake.
 #include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 using math::dvec2;
 
-/// What is the same at nearly all that is static, beyond the camera's part.
+/// The offset shared by nearly all static surfaces, beyond camera motion.
 std::optional<dvec2> findOffset(const Reading& said) {
     std::vector<double> xs;
     std::vector<double> ys;
@@ -98,7 +98,7 @@ void checkOffset(
             what + ", the change of cameras.jitterPx: the jitter is in cameras.clipFromView, which "
                    "must be without"
         );
-    // Jitter that was not declared differs from frame to frame; what moves evenly does not.
+    // Undeclared jitter differs from frame to frame; uniform motion does not.
     if (last && last->hasOffset && glm::length(offset - last->offsetPx) > 0.1 &&
         glm::length(last->offsetPx) < 2.5)
         tell(

@@ -38,7 +38,7 @@ void append(std::string& list, const char* name) {
     list += (list.empty() ? "" : ", ") + std::string(name);
 }
 
-/// How many times the memory of an image as it is said the image takes.
+/// Ratio of an image's memory to that of an image as declared.
 double measureMemory(VkDevice device, const Named& named, VkExtent2D picture) {
     VkMemoryRequirements taken{};
     vkGetImageMemoryRequirements(device, named.image.image, &taken);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the values of a host's images tell by themselves.
+// Checks the values of a host's images on their own.
 #include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "shaders/motion_blur/prepare.glsl"
 
@@ -16,7 +16,7 @@ namespace shutter::motion_blur {
 
 namespace {
 
-/// Fewer pixels tell nothing, as one of a window that is being closed.
+/// Minimum number of pixels for a finding; closing windows may have fewer.
 constexpr uint64_t kLeastPixels = 64;
 
 uint32_t countOf(const CheckedFrame& frame, uint32_t index) {

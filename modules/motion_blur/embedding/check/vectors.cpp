@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion vectors against what the cameras imply where things are static. What a host may have got
-// wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
-// do not now. What moves by itself agrees with neither, and so decides nothing.
+// Checks motion vectors against the motion that the cameras imply for static surfaces. Possible
+// mistakes are tried one at a time, and reported if the vectors agree with the cameras under that
+// hypothesis and not without it. Movers agree with neither and so do not count.
 #include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
@@ -291,8 +291,8 @@ class Guesses {
              {&facts.convention.cameras.clipFromView, &facts.convention.cameras.clipFromViewBefore})
             for (int column = 0; column < 4; ++column)
                 (*clip)[column].y = -(*clip)[column].y;
-        // Under an orthographic camera all points move alike, so this and vectors with y up look
-        // the same.
+        // Under an orthographic camera all points move alike, so this is indistinguishable from
+        // vectors with y up.
         Reading guess = read(mNow, facts);
         guess.isAlternative = true;
         guess.sentence =
