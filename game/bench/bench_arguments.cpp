@@ -110,7 +110,7 @@ core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
     return suite;
 }
 
-/// Whether the suite measures the method unless --methods says what it does.
+/// Whether the suite measures the method by default, without --methods.
 bool isWanted(const MethodInfo& method, const Suite& suite) {
     // Their rays take longer than all others together.
     const bool isFilm = !suite.sequences.empty();

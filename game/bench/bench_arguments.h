@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `shutter bench`'s options as a person types them, and what they mean.
+// Command-line options of `shutter bench`, and their interpretation.
 #pragma once
 
 #include "engine/core/result.h"
@@ -39,7 +39,7 @@ struct BenchArguments {
     const CLI::Option* pixelOption = nullptr; ///< --pixel
 };
 
-/// What is to be measured.
+/// The measurements of a run.
 struct BenchTask {
     Suite suite;
     std::vector<const game::MethodInfo*> methods;

@@ -82,7 +82,7 @@ SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const Bench
 Status measureTask(const BenchArguments& arguments, BenchTask task) {
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
-    deviceOptions.keptPipelines = 256; // each case has renderers of its own
+    deviceOptions.keptPipelines = 256; // each case makes its own renderers
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
         return device.error();
@@ -113,7 +113,7 @@ int runBench(const BenchArguments& arguments) {
         const Status made = remakeReportPage(arguments.out);
         return made ? game::kExitDone : game::fail(game::kExitFailed, made.error());
     }
-    // Wrong options of the shot are told before anything is made.
+    // Report wrong options of the shot before creating anything.
     auto task = interpretBench(arguments);
     if (!task)
         return game::fail(game::kExitUsage, task.error());

@@ -24,7 +24,7 @@ struct RunOptions {
 };
 
 /// Measures a suite into results.json and index.html of the report's folder, whose parts exist.
-/// Error: a scene or a file; or that `stop` ended it, which leaves what was measured.
+/// Error: a scene or a file; or `stop` ended the run, in which case the measurements so far remain.
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
 

@@ -34,8 +34,8 @@ core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
 
 constexpr uint32_t kCropSidePx = 96;
 
-/// What a reader of the report looks into: the channels R, G and B of a linear picture and, unless
-/// it has no pixels, the error map as the channel `flip`.
+/// Packs the picture for the report's inspector: channels R, G and B of a linear picture and,
+/// unless it has no pixels, the error map as the channel `flip`.
 /// \param color three channels or more
 /// \param errorMap one channel, as large as `color`, or without pixels
 image::Image packLinearPicture(const image::Image& color, const image::Image& errorMap = {}) {
@@ -156,7 +156,7 @@ Status CaseStage::provideTruth() {
     SHUTTER_TRY(writeTruth(files, drawn.value()));
     if (!cached.display.empty())
         SHUTTER_TRY(writeTruth(cached, drawn.value()));
-    // What is compared is what the files hold: 8 bits a channel, and half floats.
+    // Compare as stored in the files: 8 bits per channel, and half floats.
     auto read = readCachedTruth(files, mShotOptions.width, mShotOptions.height);
     if (!read)
         return core::makeError("'{}' cannot be read again", files.display.string());

@@ -75,7 +75,7 @@ class CaseStage {
     /// Whether everything at this point has been measured.
     [[nodiscard]] bool isKnown(const SamplePoint& point, uint32_t repeats) const;
 
-    /// What is compared is what the camera's lens sees.
+    /// Whether pictures are compared with the lens's depth of field.
     [[nodiscard]] bool hasLens() const;
 
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }

@@ -27,7 +27,7 @@ constexpr PaperRow kPaperRows[] = {
     {"hybrid", "hybrid_paper", "hybrid with the numbers of the publication"},
 };
 
-/// A filter of the lens over the sharp picture, or beside a motion blur that knows of no lens.
+/// A depth-of-field filter of the sharp picture, or combined with a motion blur without a lens.
 struct LensRow {
     const char* name;
     const char* description;
@@ -43,7 +43,7 @@ constexpr LensRow kLensRows[] = {
     {"blur_then_lens", "resolved's motion blur, then near_far_lens", "near_far", "resolved", true},
 };
 
-/// Instants of the motion blur beside a filter.
+/// Instants of the motion blur combined with a filter.
 constexpr uint32_t kInstantsBesideLens = 16;
 
 game::MethodInfo describeLensContender(const LensRow& row) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is measured: every method with its default settings, and the paper's with the publication's;
-// and at which sample counts.
+// Methods to measure: each with its default settings, and the paper's also with those of the
+// publication; and their sample counts.
 #pragma once
 
 #include "engine/core/result.h"

@@ -9,7 +9,7 @@
 
 namespace shutter::bench {
 
-/// A detail worth a closer look, in pixels of the picture.
+/// A detail to magnify, in pixels of the picture.
 struct Crop {
     uint32_t x = 0;
     uint32_t y = 0;

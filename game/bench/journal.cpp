@@ -123,7 +123,7 @@ readRecords(const std::filesystem::path& file, const std::string& fingerprint) {
         return document.error();
     const json::JsonObject root = document.value().root().readObject({"fingerprint", "records"});
     const std::string found = root.require("fingerprint").readString();
-    // In a folder of its own below the report's.
+    // In a subfolder of the report's folder.
     const std::filesystem::path folder = file.parent_path() / "..";
     Records records;
     if (found == fingerprint)

@@ -61,7 +61,7 @@ class Journal {
     [[nodiscard]] core::Status addSample(const std::string& key, Sample sample);
     [[nodiscard]] core::Status setPicture(const std::string& key, PictureFacts picture);
     [[nodiscard]] core::Status skip(const std::string& key, const std::string& reason);
-    /// Takes the place of what was known under the keys; one writing for all of them.
+    /// Replaces the records of the keys, in a single write.
     [[nodiscard]] core::Status setRecords(std::map<std::string, Record> records);
 
   private:

@@ -99,7 +99,7 @@ class Rounds {
         return perStep * double(stepsOf(entry.point()));
     }
 
-    /// Compares the picture and learns what it costs.
+    /// Compares the picture and measures its cost.
     Status drawFirst(Entry& entry) {
         const SamplePoint& point = entry.point();
         if (!game::canRun(*point.method, mDevice))
@@ -132,7 +132,7 @@ class Rounds {
             return drawn.error();
         entry.seconds = secondsOf(drawn.value());
         SHUTTER_TRY(mStage.keepPicture(point, drawn.value()));
-        // An expensive picture is drawn once: it is its own measurement.
+        // An expensive picture is drawn once: reuse the warm-up run as the sample.
         const bool isDear = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
         return isDear ? mStage.keepSample(point, drawn.value()) : Status();
     }
@@ -149,8 +149,8 @@ class Rounds {
         return drawn ? mStage.keepSample(entry.point(), drawn.value()) : Status(drawn.error());
     }
 
-    /// One run of a progressive method to the sample count of `last`; what it is at the smaller
-    /// ones is measured on the way.
+    /// Runs a progressive method up to the sample count of `last`, and measures the smaller counts
+    /// on the way.
     Status runProgressive(Entry& last) {
         Status kept;
         game::Checkpoints checkpoints;
@@ -187,7 +187,7 @@ class Rounds {
                 SHUTTER_TRY(refuse(entry, describeLack(*entry.point().method)));
             return {};
         }
-        // The first picture compiles shaders, the second tells what a ray costs.
+        // The first picture compiles shaders, the second measures the cost of a ray.
         Entry& first = mProgressive.front();
         auto warm = mStage.draw(first.drawn);
         auto drawn = warm ? mStage.draw(first.drawn) : std::move(warm);

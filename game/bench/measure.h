@@ -52,7 +52,7 @@ pictureFile(const std::string& caseName, const std::string& method, uint32_t sam
 /// "method/samples".
 [[nodiscard]] std::string makeKey(const SamplePoint& point);
 
-/// Measures what the case's journal lacks. Returns early, without an error, when `stop` says so.
+/// Measures what the case's journal lacks. Returns early, without an error, if `stop` is set.
 /// Error: the scene cannot be loaded, a file cannot be written.
 [[nodiscard]] core::Result<CaseResult> measureCase(
     gpu::Device& device,

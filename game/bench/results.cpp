@@ -119,7 +119,7 @@ class Frames {
         }
     }
 
-    /// One a frame, null where there is none.
+    /// One per frame, null where there is none.
     [[nodiscard]] json listMetric(const std::string& id) const {
         json values = json::array();
         for (const Record* record : mRecords) {

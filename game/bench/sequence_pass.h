@@ -56,7 +56,7 @@ class SequencePass {
     drawFrame(uint32_t frame, core::Progress& progress);
 
   private:
-    /// A method with what it keeps between frames.
+    /// A method with its state between frames.
     struct Drawer {
         std::string key;
         game::MethodOptions options;

@@ -37,7 +37,7 @@ SequencePlan planSequence(
     SequencePlan plan;
     const bool isAliased = antiAliasing == game::AntiAliasing::None;
     plan.points = isAliased ? makeSequencePoints(methods) : makeAntiAliasedPoints(methods);
-    // Anti-aliasing takes frames before each picture, or beside it: one sample count is enough.
+    // Anti-aliasing draws additional frames: one sample count is enough.
     for (const SamplePoint& point :
          isAliased ? makeSweep(methods, kMostRays) : std::vector<SamplePoint>()) {
         // The truth would be compared with itself.

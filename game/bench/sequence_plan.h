@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn of a sequence, and how the journal calls it.
+// The frames to draw of a sequence, and their names in the journal.
 #pragma once
 
 #include "game/bench/contenders.h"
@@ -18,12 +18,12 @@ enum class SequenceCamera : uint8_t {
     Standing, ///< at rest where the sequence's own is in its middle
 };
 
-/// What is drawn of a sequence, and when.
+/// The frames to draw of a sequence.
 struct SequencePlan {
     std::vector<SamplePoint> points; ///< drawn in every frame
     std::vector<SamplePoint> sweep;  ///< other sample counts, drawn in some frames
     uint32_t frames = 0;
-    uint32_t firstStanding = 0; ///< frames that are drawn again with a standing camera
+    uint32_t firstStanding = 0; ///< frames that are drawn again with a static camera
     uint32_t standingFrames = 0;
     std::vector<uint32_t> sweepFrames; ///< rising
 

@@ -170,7 +170,7 @@ class SequenceRun {
         return uint64_t(end) * (mPlan.points.size() + 1) + uint64_t(swept) * mPlan.sweep.size();
     }
 
-    /// Those of an earlier run do not show what is drawn now.
+    /// Films of an earlier run are outdated.
     void removeFilms() const {
         for (const std::string& key : listKeys()) {
             std::error_code ignored;

@@ -23,13 +23,13 @@ struct TruthFiles {
 nameTruthFiles(const std::filesystem::path& folder, const std::string& name);
 
 struct TruthPictures {
-    image::Image display; ///< 8 bits a channel, as the file holds them
+    image::Image display; ///< 8 bits per channel, as in the file
     image::Image linear;
 };
 
-/// The pictures that the files keep; nothing where one of them is absent. One that cannot be read,
-/// or of another size or kind than the truth of a case has, counts as absent, with a warning: the
-/// truth is drawn anew and replaces it.
+/// Returns the cached pictures; nothing if one of them is absent. One that cannot be read, or that
+/// has another size or kind than the case's truth, counts as absent, with a warning: the truth is
+/// drawn again and replaces it.
 [[nodiscard]] std::optional<TruthPictures>
 readCachedTruth(const TruthFiles& files, uint32_t width, uint32_t height);
 

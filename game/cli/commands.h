@@ -17,8 +17,8 @@ void addInfoCommand(CLI::App& app, int& exitStatus);
 /// How far two pictures are apart.
 void addCompareCommand(CLI::App& app, int& exitStatus);
 
-/// Lists in `--help` the commands that are programs of their own, beside this one: who asks for one
-/// picture need not build them.
+/// Lists in `--help` the commands that are separate programs, so that users who only render need
+/// not build them.
 void addExternalCommands(CLI::App& app);
 
 /// Becomes the program of the external command that the command line names first; returns only

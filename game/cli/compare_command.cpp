@@ -76,7 +76,7 @@ image::Image makeHeatMap(const image::Image& a, const image::Image& b) {
     return heat;
 }
 
-/// The words alone: what it finds is wrong usage.
+/// Checks the arguments alone: an error is wrong usage.
 core::Status checkArguments(const CompareArguments& arguments) {
     if (!arguments.map.empty() && arguments.map != "flip" && arguments.map != "difference")
         return core::makeError("--map '{}' is not one of flip, difference", arguments.map);

@@ -21,7 +21,7 @@ namespace {
 using core::makeError;
 using Indices = std::vector<uint32_t>;
 
-/// A picture as its file has it, with what is found in it.
+/// A picture as stored in its file, with its colour channels.
 struct Source {
     std::string name;
     io::StoredImage stored;

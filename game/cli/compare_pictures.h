@@ -36,7 +36,7 @@ struct Comparison {
     double maxDifference = 0.0; ///< of the images' values; infinite where one is NaN
     /// The same of the values as stored, where both were tone mapped.
     std::optional<double> storedDifference;
-    std::vector<std::string> notes; ///< what is left out or could mislead, a sentence each
+    std::vector<std::string> notes; ///< omissions and caveats, one sentence each
 
     [[nodiscard]] bool isDisplay() const { return a.isDisplay && b.isDisplay; }
 };

@@ -19,7 +19,7 @@ namespace {
 struct ExternalCommand {
     const char* name;
     const char* help;
-    const char* program; ///< beside this one
+    const char* program; ///< in the folder of this program
     const char* build;   ///< makes it
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program of a build for hosts (SHUTTER_EMBEDDING_TOOLS): what it does to their dumps.
+// The program of a build for hosts (SHUTTER_EMBEDDING_TOOLS): replays and compares their dumps.
 #include "game/cli/commands.h"
 #include "game/options/program.h"
 #include "game/replay/replay_run.h"

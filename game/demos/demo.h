@@ -22,7 +22,7 @@ inline constexpr double kGravity = 9.81; ///< m/s^2
 inline constexpr int kDemoStepsPerSecond = 120;
 inline constexpr double kDemoStepSeconds = 1.0 / kDemoStepsPerSecond;
 
-/// What a player asks of one fixed step; the same for every demo. Values outside of their range
+/// A player's controls for one fixed step; the same for every demo. Values outside of their range
 /// are clamped, NaN counts as 0.
 struct DemoControls {
     double turn = 0.0;   ///< [-1, 1], right is positive: wheel, aim
@@ -35,8 +35,9 @@ struct DemoControls {
 
 struct HudLine {
     std::string text;
-    bool emphasis = false;  ///< of the lines the one to look at first
-    std::string label = ""; ///< of a value, a word or two: such lines stand side by side
+    bool emphasis = false;  ///< the most important line
+    std::string label = ""; ///< label of a value, one or two words: such lines are placed side by
+                            ///< side
 };
 
 /// What the view of a demo's world needs besides the world.
@@ -44,7 +45,7 @@ struct DemoLook {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is drawn: the sky
     math::vec3 ambient{0.0f};    ///< linear RGB of the light from everywhere
     double turbidity = 0.0; ///< of the clear sky that takes the place of both; 0: there is none
-    /// Factor of that sky over what it is outside: games are seen in brighter light than deserts.
+    /// Factor over the physical sky.
     double skyIntensity = 1.0;
 };
 
@@ -56,9 +57,9 @@ class Demo {
 
     [[nodiscard]] virtual const char* name() const = 0;
     [[nodiscard]] virtual const scene::World& world() const = 0;
-    /// For what is the viewer's: the CameraShutter of the cameras (World::cameras).
+    /// For the viewer's settings: the CameraShutter of the cameras (World::cameras).
     [[nodiscard]] virtual scene::World& world() = 0;
-    /// The one to look through now, of World::cameras. Where it changes the picture is cut.
+    /// The active camera of World::cameras. A change is a cut.
     [[nodiscard]] virtual ecs::Entity camera() const = 0;
     [[nodiscard]] virtual DemoLook look() const = 0;
     /// One fixed step of kDemoStepSeconds. After the end the world moves on, the score stays.

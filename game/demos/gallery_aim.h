@@ -6,7 +6,7 @@
 
 namespace shutter::game {
 
-/// Where the player looks, and what the last throws left of their kick.
+/// The player's view direction, and the remaining recoil of the last throws.
 struct Aim {
     double yaw = 0.0;        ///< radians, positive to the right, within kMostYaw
     double pitch = 0.0;      ///< radians, positive up, within kMostPitch

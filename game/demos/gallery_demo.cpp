@@ -28,7 +28,7 @@ constexpr uint32_t kSplintersPerHit = 24;
 constexpr uint32_t kFlashesPerHit = 14;
 constexpr int kBallCount = 12;
 
-/// The scene's rails: node `rail_N` is N's bar, `target_N_K` stand on it.
+/// The scene's rails: node `rail_N` is rail N's bar, nodes `target_N_K` are the targets on it.
 struct RailRules {
     const char* rail;
     const char* targets;
@@ -110,7 +110,7 @@ void GalleryDemo::throwOne() {
     const math::Transform eye = aimPose(mAim, mShooterRest);
     const dvec3 muzzle =
         eye.translation + eye.rotation * (mLauncherRest.translation + dvec3(0.0, 0.0, -0.6));
-    // The ball leaves beside the eye: it is thrown at what the eye sees at the middle rail.
+    // The ball starts next to the eye and is aimed at the point in view at the middle rail.
     constexpr double kAimedDepth = 8.4;
     const dvec3 ahead = eye.rotation * glm::angleAxis(kThrowLift, dvec3(1.0, 0.0, 0.0)) *
                         dvec3(0.0, 0.0, -kAimedDepth);

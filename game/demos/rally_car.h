@@ -19,7 +19,7 @@ inline constexpr double kCarBrakeDecel = 13.0; ///< m/s^2
 struct CarState {
     math::dvec2 place{0.0};    ///< x, z
     math::dvec2 velocity{0.0}; ///< m/s
-    double heading = 0.0;      ///< about +Y; 0 looks along -Z; counts on over whole turns
+    double heading = 0.0;      ///< about +Y; 0 is -Z; not wrapped after whole turns
     double steer = 0.0;        ///< of the front wheels, positive to the right
     double frontRoll = 0.0;    ///< angle that the front wheels have rolled by, [0, 2 pi)
     double rearRoll = 0.0;     ///< as above; does not change while the hand brake is held
@@ -59,7 +59,7 @@ struct ChaseCamera {
 /// One step of kDemoStepSeconds.
 void stepChase(ChaseCamera& camera, const CarState& car);
 
-/// The pose of the camera's entity, a root; it looks along its -Z.
+/// The pose of the camera's entity, a root, with -Z forward.
 [[nodiscard]] math::Transform chasePose(const ChaseCamera& camera, const CarState& car);
 
 } // namespace shutter::game

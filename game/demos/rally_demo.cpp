@@ -25,7 +25,7 @@ constexpr int kPerGate = 100;
 constexpr int kPerPost = -50;
 
 constexpr double kSlidingSpeed = 1.8; // m/s sideways, from which tyres raise dust
-constexpr double kDustySpeed = 6.0;   // m/s beside the road
+constexpr double kDustySpeed = 6.0;   // m/s off the road
 constexpr double kDustPerSecond = 70.0;
 
 void addPosts(scene::World& world, const std::vector<ecs::Entity>& entities) {
@@ -92,7 +92,7 @@ RallyDemo::RallyDemo(
     for (const Wheel& wheel : mNodes.wheels) {
         (void)game::simulate(world(), wheel.tyre);
         (void)game::simulate(world(), wheel.spokes);
-        // Wheels blur by their own motion, whatever is said of the body.
+        // Wheels blur by their own motion, independent of the body's scale.
         world().registry.add(wheel.tyre, scene::MotionBlur{});
         if (!wheel.isFront)
             world().registry.add(wheel.tyre, makeDust(static_cast<uint32_t>(wheel.tyre.index)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `rally`: two laps by car, against the clock, past posts that had better stay where they are.
+// `rally`: two laps by car, against the clock, past posts that should not be hit.
 #pragma once
 
 #include "game/demos/demo_base.h"
@@ -50,7 +50,7 @@ class RallyDemo final : public DemoBase {
     };
 
     RallyDemo(scene::World world, const Nodes& nodes, RallyTrack track, std::vector<Fence> fences);
-    /// Behind rear wheels that slide or run beside the road.
+    /// Behind rear wheels that slide or run off the road.
     void raiseDust(const CarState& state);
     void placeCar();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rally's way: gates, road and fences, as the scene's nodes tell them.
+// The rally's track: gates, road and fences, read from the scene's nodes.
 #pragma once
 
 #include "engine/math/math.h"

@@ -13,7 +13,7 @@ using math::dvec3;
 using math::vec4;
 
 constexpr dvec3 kFall{0.0, -9.81, 0.0};
-/// Kept longer than the longest life: frames look back by an exposure and a frame.
+/// Exceeds the longest life, since frames need the past exposure and frame.
 constexpr double kKeptSeconds = 0.5;
 
 scene::ParticleEmitter& emitterOf(ecs::Registry& registry, ecs::Entity entity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The carousel and what it drives, and the rules of riding it.
+// The carousel with its attached objects, and the rules of riding it.
 #pragma once
 
 #include "game/demos/demo.h"
@@ -29,7 +29,7 @@ struct RideRules {
     double sinceChange = 0.0; ///< seconds
     double matched = 0.0;     ///< points for keeping the rate
     int caught = 0;           ///< rings
-    int missed = 0;           ///< grabs beside it
+    int missed = 0;           ///< missed grabs
     double ringPoints = 0.0;  ///< of all grabs
     bool wasHeld = false;     ///< the action, in the step before
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the demos' systems share: finding the things of a scene, and telling the scene where the
-// simulation has put them.
+// Shared by the demos: finds the entities of a scene, and writes simulated placements to the scene.
 #pragma once
 
 #include "engine/core/result.h"
@@ -30,7 +29,7 @@ struct SimulatedPose {
 /// space.
 [[nodiscard]] math::Transform restOf(const scene::World& world, ecs::Entity entity);
 
-/// A scene's entities by scene::Name; those alone that stand somewhere (scene::LocalTransform).
+/// A scene's entities by scene::Name; only those with a scene::LocalTransform.
 class NodeNames {
   public:
     /// \param world outlives this

@@ -34,9 +34,9 @@ void defineMethodOptions(CLI::App& command, MethodArguments& arguments);
 /// Error: names the option that was used wrongly.
 [[nodiscard]] core::Result<MethodOptions> interpret(const MethodArguments& arguments);
 
-/// Sets one setting from NAME=VALUE. Names are MotionBlurSettings' fields
-/// (motion_blur/settings.h), and only those that the method reads. Error: names what was typed
-/// wrongly, or the range that the value is not in.
+/// Sets one setting from NAME=VALUE. Names are MotionBlurSettings' fields (motion_blur/settings.h),
+/// and only those that the method reads. Error: names the wrong argument, or the range that the
+/// value is outside of.
 [[nodiscard]] core::Status applySetting(
     const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
 );

@@ -62,7 +62,7 @@ template <class Arguments>
     return text;
 }
 
-/// Adds an option that `parse` reads. An error of it is told with the option's name.
+/// Adds an option that `parse` reads. Its errors are prefixed with the option's name.
 template <class Parse>
 CLI::Option*
 addParsedOption(CLI::App& command, const char* name, const std::string& help, Parse&& parse) {
@@ -139,7 +139,7 @@ CLI::Option* defineMember(
         return command.add_option(row.name, target, row.help);
 }
 
-/// The row of a member that has a value of its own.
+/// The row of a member with a scalar value.
 template <auto member>
 [[nodiscard]] constexpr auto
 makeRow(const char* name, const char* help, Matters matters = Matters::ToPictures) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program among what surrounds it, the same for all commands: what it says and returns when
-// something fails, where it keeps files for a user, and where it finds those installed with it.
+// The program's environment, the same for all commands: messages and exit statuses, the user's
+// folders, and the folders of installed files.
 #pragma once
 
 #include "engine/core/result.h"
@@ -32,9 +32,9 @@ inline constexpr int kExitUsage = 2;  ///< the command line was wrong
 /// Returns `status`, or kExitFailed with a sentence where something printed to stdout was lost.
 [[nodiscard]] int finishOutput(int status);
 
-/// Parses the command line, which runs what it names, and gives the program -v.
-/// \param exitStatus what the commands of `app` leave
-/// \return what the program returns: kExitUsage with a sentence where the command line is wrong,
+/// Parses the command line, runs its command, and adds the option -v.
+/// \param exitStatus set by the commands of `app`
+/// \return the program's exit status: kExitUsage with a sentence if the command line is wrong,
 ///         kExitFailed with one where the device, the memory or the output fails
 [[nodiscard]] int runProgram(CLI::App& app, int argc, char** argv, int& exitStatus);
 
@@ -47,7 +47,7 @@ inline constexpr int kExitUsage = 2;  ///< the command line was wrong
 [[nodiscard]] std::filesystem::path findSettingsFile();
 
 /// The folder of the scenes that come with the program: SHUTTER_ASSETS if it is set, else `assets`
-/// beside the program (a build), else ../share/shutter/assets (an installation).
+/// in the program's folder (a build), else ../share/shutter/assets (an installation).
 [[nodiscard]] std::filesystem::path findAssetFolder();
 
 } // namespace shutter::game

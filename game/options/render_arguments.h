@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `shutter render`'s options as a person types them, and what they mean.
+// Command-line options of `shutter render`, and their interpretation.
 #pragma once
 
 #include "engine/core/result.h"

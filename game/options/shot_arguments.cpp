@@ -26,7 +26,7 @@ constexpr std::array kSceneRows = {
     makeRow<&A::allowOutside>(
         "--allow-outside",
         "let the scene read, and a script write, files outside its folder",
-        Matters::ToNoPicture // what is read counts by its contents
+        Matters::ToNoPicture // files count by their contents
     ),
     makeRow<&A::camera>(
         "--camera", "camera by name or index; default: the first, or one that frames the scene"

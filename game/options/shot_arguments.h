@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of a shot as typed: what is drawn when, from where, how it is lit and shown.
+// Command-line options of a shot: scene, time, camera, lighting and display.
 #pragma once
 
 #include "engine/core/frame_rate.h"
@@ -47,7 +47,7 @@ struct ShotArguments {
     std::set<std::string> typed; ///< options of `lens`, `surroundings` and `picture`
 };
 
-/// What is drawn and what it looks like: the options of every command that draws a scene.
+/// Defines the scene and picture options of every command that draws a scene.
 /// \param defaults of `arguments.picture`, in the help; empty: its values
 void defineSceneOptions(
     CLI::App& command, ShotArguments& arguments, const std::string& defaults = {}

@@ -66,7 +66,7 @@ core::Status checkOutputs(const RenderOptions& options) {
     SHUTTER_TRY(checkJsonWritable("--hash-passes", options.output.hashPasses));
     if (const auto timecode = findTimecode(options, 0); !timecode)
         return timecode.error();
-    // A film's frames have a folder of their own, which is not there yet.
+    // A film's frames have a separate folder, which does not exist yet.
     if (!options.output.film.empty())
         return {};
     const fs::path first = frameFile(options.output.out, options.shot.firstFrame);

@@ -25,7 +25,7 @@ struct FramePart {
     uint32_t count = 1;
 };
 
-/// What is written and printed.
+/// Options of the output.
 struct OutputOptions {
     std::filesystem::path out;    ///< picture or %d pattern; for a film, the pattern of its frames
     std::filesystem::path film;   ///< .mp4 to make of the frames; empty: none
@@ -43,7 +43,7 @@ struct OutputOptions {
     std::optional<FramePart> part{}; ///< draws these frames alone, and no film
     bool dryRun = false;             ///< checks, and draws nothing
 
-    /// Whether a film's frames have 16 bits a channel, since 8 would not fill its own.
+    /// Whether a film's frames have 16 bits per channel, because the film has more than 8.
     [[nodiscard]] bool isDeep() const { return !film.empty() && video.bitDepth > 8; }
 };
 
@@ -55,8 +55,8 @@ struct RenderOptions {
     MethodOptions method;
     OutputOptions output;
     gpu::DeviceOptions device;
-    /// The options that pictures depend on, in one line. Files are told by content, so the scene
-    /// and the flythrough are not among them.
+    /// The options that pictures depend on, in one line. Files are identified by content, so the
+    /// scene and the flythrough are not included.
     std::string fingerprint;
 };
 
@@ -64,19 +64,19 @@ struct RenderOptions {
 [[nodiscard]] core::Status checkOutputs(const RenderOptions& options);
 
 /// The file of one frame. In the pattern's own name, not in those of its folders, every %04d (any
-/// width up to 99) stands for the frame's number and %% for one %; any other % stays.
+/// width up to 99) stands for the frame's number and %% for one %; any other % is copied.
 [[nodiscard]] std::filesystem::path
 frameFile(const std::filesystem::path& pattern, int frameNumber);
 
-/// The time code of a frame of a sequence by --timecode and --fps; after 24 hours it begins anew.
-/// Empty without --timecode.
+/// The time code of a frame of a sequence by --timecode and --fps; wraps after 24 hours. Empty
+/// without --timecode.
 /// \param frame index among the sequence's frames
 /// Error: names --timecode.
 [[nodiscard]] core::Result<std::optional<io::Timecode>>
 findTimecode(const RenderOptions& options, size_t frame);
 
-/// What the EXR pictures of a frame of a sequence say of their place in time; a single picture has
-/// none. \param frame index among the sequence's frames
+/// Time metadata for the EXR pictures of a frame of a sequence; a single picture has none. \param
+/// frame index among the sequence's frames
 /// Error: names --timecode.
 [[nodiscard]] core::Result<std::optional<io::FrameStamp>>
 findStamp(const RenderOptions& options, size_t frame);

@@ -103,13 +103,13 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
         );
 }
 
-/// What drawing alone tells makes frames that need not be drawn needed.
+/// Data that only drawing provides makes otherwise complete frames necessary.
 bool maySkip(const RenderOptions& options) {
     return !options.output.restart && options.output.stats.empty() && !options.output.explain &&
            !options.output.dumpGraph && options.output.repeat == 1;
 }
 
-/// The journal of a part beside that of the whole.
+/// The journal of a part, next to that of the whole.
 std::filesystem::path partJournal(const std::filesystem::path& whole, uint32_t part) {
     return whole.string() + fmt::format(".part_{}", part + 1);
 }
@@ -150,7 +150,7 @@ class Sequence {
         return {};
     }
 
-    /// Looks for what earlier runs and other processes left, and says so.
+    /// Reads the journals of earlier runs and other processes, and reports them.
     core::Status openJournal(const std::string& fingerprint) {
         const OutputOptions& output = mOptions.output;
         const std::filesystem::path whole = journalFile(output.out);
@@ -197,14 +197,14 @@ class Sequence {
         return {};
     }
 
-    /// Once the whole has taken over what they hold.
+    /// Call after the whole's journal has merged their entries.
     void removePartJournals() const {
         std::error_code ignored;
         for (const std::filesystem::path& journal : mPartJournals)
             std::filesystem::remove(journal, ignored);
     }
 
-    /// Draws and writes what is not complete.
+    /// Draws and writes incomplete frames.
     core::Status draw() {
         bool hasKeptPipelines = false;
         const uint64_t draws = mOptions.output.repeat > 1 ? mOptions.output.repeat + 1 : 1;
@@ -259,8 +259,8 @@ class Sequence {
         return result;
     }
 
-    /// The journal of another process, which is refused where it tells of other pictures: a part
-    /// that was drawn otherwise, or by another driver, does not belong to this film.
+    /// Reads the journal of another process. Error: its pictures were drawn with other settings or
+    /// by another driver, and do not belong to this film.
     [[nodiscard]] core::Result<SequenceJournal>
     readOther(const std::filesystem::path& file, const std::string& fingerprint) const {
         auto other = SequenceJournal::read(file, fingerprint);
@@ -421,7 +421,7 @@ core::Result<std::string> computeFingerprint(const RenderOptions& options, const
 }
 
 /// Warns where the method draws a pinhole although the camera has a lens. Error: the method cannot
-/// tell how many samples the lens takes.
+/// determine the number of samples for the lens.
 core::Status checkLensOf(const Shot& shot, const MethodOptions& options) {
     if (!scene::hasLens(shot.world, shot.camera))
         return {};

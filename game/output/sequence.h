@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Draws frames one after another, each written to disk before the next, and skips those that are
-// there already. The frames of a film (`--out FILE.mp4`) are PNG files in the folder
-// FILE.mp4.frames. Several processes may each draw a part: each has a journal of its own beside
-// that of the whole, which takes over what they hold.
+// Draws frames in sequence, writes each to disk before the next, and skips complete ones. The
+// frames of a film (`--out FILE.mp4`) are PNG files in the folder FILE.mp4.frames. Several
+// processes may each draw a part: each has its own journal, and the whole's journal merges them.
 #pragma once
 
 #include "engine/core/result.h"
@@ -34,7 +33,7 @@ namespace shutter::game {
 /// \param frame index among the shot's frame times
 [[nodiscard]] int numberOfFrame(const RenderOptions& options, size_t frame);
 
-/// The folder beside the film that its frames are drawn into, and their names, from 0.
+/// The folder of the film's frames, next to the film, and their names, from 0.
 [[nodiscard]] std::filesystem::path filmFrames(const std::filesystem::path& film);
 
 /// Finds ffmpeg and checks that the film can be written, before hours of rendering. Error: names

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Records what of a sequence is complete on disk, so that a stopped run continues where it was. A
-// line of JSON per frame, added when all of the frame's files are in place; a frame counts when
-// its files still have the bytes that its line tells.
+// Records the complete frames of a sequence on disk, so that an interrupted run resumes. One line
+// of JSON per frame, added when all of the frame's files exist; a frame is complete if its files
+// still match the line.
 #pragma once
 
 #include "engine/core/result.h"
@@ -16,7 +16,7 @@
 
 namespace shutter::game {
 
-/// Where the journal of the pictures `pattern` lies: hidden, beside them.
+/// Path of the journal of the pictures `pattern`: a hidden file in their folder.
 [[nodiscard]] std::filesystem::path journalFile(const std::filesystem::path& pattern);
 
 class SequenceJournal {
@@ -30,16 +30,16 @@ class SequenceJournal {
     [[nodiscard]] static core::Result<SequenceJournal>
     open(std::filesystem::path file, const std::string& fingerprint);
 
-    /// What a journal of this fingerprint tells, without a write: another process may be adding to
+    /// Reads the journal of this fingerprint without writing: another process may be appending to
     /// it. Empty where there is none. Error: the file cannot be read.
     [[nodiscard]] static core::Result<SequenceJournal>
     read(std::filesystem::path file, const std::string& fingerprint);
 
     [[nodiscard]] Before before() const { return mBefore; }
 
-    /// Whether all files of the frame are what they were when it was added, its own picture among
-    /// them: a line may name others. Reads them.
-    /// \param picture as it was given to add()
+    /// Whether all files of the frame, including its own picture, are unchanged since it was added:
+    /// a line may name others. Reads them.
+    /// \param picture as passed to add()
     [[nodiscard]] bool isComplete(int frame, const std::filesystem::path& picture) const;
 
     /// \param files in the journal's folder or below, complete

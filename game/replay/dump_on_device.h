@@ -16,7 +16,7 @@
 
 namespace shutter::replay {
 
-/// What is done with an image after the effect: it is copied to memory.
+/// Use of an image after the effect: it is copied to memory.
 inline constexpr graph::OutsideUse kCopied{
     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
@@ -27,7 +27,7 @@ class UploadedImage {
   public:
     UploadedImage(gpu::Device& device, const DumpImage& from);
 
-    /// Copies the texels; the image is in the state that describe() tells.
+    /// Copies the texels; the image is in the state that describe() returns.
     void record(VkCommandBuffer commands) const;
     [[nodiscard]] motion_blur::HostImage describe() const;
 
@@ -42,8 +42,8 @@ class ReplayedReveal {
   public:
     explicit ReplayedReveal(gpu::Device& device);
 
-    /// \param frame holds DumpedReveal::Own. What was answered before is let go: the GPU must be
-    /// done with it.
+    /// \param frame holds DumpedReveal::Own. Frees the earlier answers: the GPU must have finished
+    /// with them.
     motion_blur::OwnReveal answer(const DumpFrame& frame);
 
   private:
@@ -61,7 +61,7 @@ class ReplayedDraws {
   public:
     explicit ReplayedDraws(gpu::Device& device) : mDevice(device) {}
 
-    /// \param frame holds DumpFrame::drawn. What was drawn before is let go: the GPU must be done
+    /// \param frame holds DumpFrame::drawn. Frees the earlier drawing: the GPU must have finished
     /// with it.
     motion_blur::OwnBlended answer(const DumpFrame& frame);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dumps that EmbeddedMotionBlur::dump() wrote: what a frame's file says, and the texels it names.
+// Reads dumps of EmbeddedMotionBlur::dump(): the manifest of each frame and its texels.
 #pragma once
 
 #include "engine/core/result.h"
@@ -73,7 +73,7 @@ struct DumpFrame {
 /// Names an image of DumpedDraws.
 [[nodiscard]] std::string nameDrawnImage(uint32_t part, bool isOpacity);
 
-/// Reads what a frame's file says. Error: names the file, the line and the field.
+/// Reads a frame's manifest. Error: names the file, the line and the field.
 [[nodiscard]] core::Result<DumpFrame> readDumpManifest(const std::filesystem::path& file);
 
 /// Reads the texels that the frame's images name. Error: names the file.

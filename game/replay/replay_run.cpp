@@ -443,7 +443,7 @@ core::Status replay(const ReplayOptions& options, gpu::Device& device) {
     const auto files = listDumpFrames(options.folder);
     if (!files)
         return files.error();
-    // All manifests first: a broken one is told before anything is written.
+    // All manifests first: report a broken one before anything is written.
     std::vector<DumpFrame> frames;
     uint32_t views = 1;
     for (const auto& file : files.value()) {

@@ -20,7 +20,7 @@ namespace shutter::replay {
 struct ReplayOptions {
     std::filesystem::path folder;
     std::filesystem::path out; ///< empty: nothing is written
-    /// Names of intermediates, or "all", to write beside `out`.
+    /// Names of intermediates, or "all", to write next to `out`.
     std::vector<std::string> aovs;
     bool explains = false;
     /// HostInputs::showsInputs of each frame: pictures then are not compared with the host's.

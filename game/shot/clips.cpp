@@ -25,7 +25,7 @@ constexpr size_t kMostNamed = 8;
 using Property = std::pair<uint32_t, uint32_t>;
 constexpr uint32_t kWeights = 3;
 
-/// By clip: what it moves in the world.
+/// By clip: the properties that it drives.
 std::vector<std::set<Property>> collectProperties(const scene::World& world) {
     std::vector<std::set<Property>> moved(world.assets.clips.size());
     for (auto [entity, animated] : world.registry.view<scene::Animated>())

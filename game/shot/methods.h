@@ -65,7 +65,7 @@ struct Preset {
     motion_blur::MotionBlurSettings blur; ///< unused where the method is sharp; its method too
 };
 
-/// In order of rising quality; the paper's comes last. game/play/README.md says what each costs.
+/// In order of rising quality; the paper's comes last. game/play/README.md gives their costs.
 [[nodiscard]] std::span<const Preset> listPresets();
 
 /// Error: lists the names of all presets.
@@ -74,7 +74,7 @@ struct Preset {
 enum class PassGroup : uint8_t {
     Scene,   ///< what a picture without blur draws as well
     Blur,    ///< what the method adds to it, acceleration structures for its rays included
-    Other,   ///< effects beside it: bloom, anti-aliasing, and what they trace rays through
+    Other,   ///< other effects: bloom, anti-aliasing, and acceleration structures for rays
     Display, ///< what brings the linear picture to the window or to memory
 };
 

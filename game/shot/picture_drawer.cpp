@@ -16,7 +16,7 @@ namespace shutter::game {
 
 namespace {
 
-/// With fewer rays a mover that few of them met yet looks like none.
+/// With fewer rays, a mover hit by few of them would be missed.
 constexpr uint32_t kLeastRaysToStop = 16;
 
 } // namespace
@@ -78,7 +78,7 @@ PictureDrawer::~PictureDrawer() {
     try {
         finishUntil(0);
     } catch (const gpu::DeviceError& error) {
-        // The error on its way, if any, says already that the device was lost.
+        // The pending error, if any, already reports the lost device.
         if (std::uncaught_exceptions() == 0)
             core::logWarning("{}", error.what());
     }

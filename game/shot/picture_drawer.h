@@ -28,7 +28,7 @@
 
 namespace shutter::game {
 
-/// How many instants of a frame accumulate averages where the frame's own motion tells.
+/// Number of instants that accumulate averages, if it depends on the frame's motion.
 struct InstantChoice {
     uint32_t count = 1;
     double stepPx = 0.0; ///< longest way between two instants
@@ -55,22 +55,22 @@ struct PictureRequest {
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                              ///< accumulate, truth, AntiAliasing::Box
     AntiAliasing antiAliasing = AntiAliasing::None; ///< unless isSampledAnyway()
-    uint32_t raysPerFrame = 0; ///< truth: most rays per pixel of one frame; 0: as the device bears
+    uint32_t raysPerFrame = 0; ///< truth: maximum rays per pixel in one frame; 0: depends on the
+                               ///< device
     /// truth: rays per pixel that the slot's last picture, of the same view, was left with; the
     /// method's samples, then 0 or more, are added to them.
     uint32_t raysBefore = 0;
-    /// Blur whose pipelines are still being made ahead: the frame waits for them, or another method
-    /// stands in for it.
+    /// While the blur's pipelines are still being created: wait for them, or use another method.
     motion_blur::UntilReady untilReady = motion_blur::UntilReady::Wait;
-    /// The frames before are drawn first for a method that looks things up in the last one, and
-    /// for AntiAliasing::Taa, unless the slot drew the last one last. Of them only what is looked
-    /// up is drawn: no blur, rays nor second raster. Without them, places in the pixel follow one
-    /// another as frames are drawn.
+    /// Draws the previous frames first for a method that looks up surfaces in the last one, and for
+    /// AntiAliasing::Taa, unless the slot drew the last one already. Only their history is drawn:
+    /// no blur, rays or second raster. False: sample places in the pixel follow the order of
+    /// drawing.
     bool drawsFramesBefore = true;
     /// Of MethodFamily::MotionBlur; the drawer finds them.
     std::vector<extract::ExposurePart> exposureParts{};
-    /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
-    /// finished. With FrameRequest::wantBrightest, they are told of the slot's last finished
+    /// Effects after the method's own, e.g. the tone map. Must live until the picture is finished.
+    /// With FrameRequest::wantBrightest, they receive the measure of the slot's last finished
     /// picture.
     std::vector<render::PostEffect*> ending;
     /// Below PictureDrawer::kSlots. Pictures that are drawn side by side, each again and again, use
@@ -86,8 +86,8 @@ makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& sett
 /// Frames of AntiAliasing::Box.
 inline constexpr uint32_t kBoxFrames = 16;
 
-/// Whether the method draws no raster image that AntiAliasing could be about: it takes many samples
-/// a pixel itself (extract::PixelModel).
+/// Whether the method takes many samples per pixel itself (extract::PixelModel), so that
+/// AntiAliasing does not apply.
 [[nodiscard]] bool isSampledAnyway(const MethodInfo& method);
 
 /// What `--aov all` reads back of the method's pictures.
@@ -128,7 +128,7 @@ class PictureDrawer {
     check(const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height);
 
     /// How often draw() calls onStep: frames of accumulate and of AntiAliasing::Box, rays per pixel
-    /// of truth, else 1; also where the picture itself tells how many frames it takes
+    /// of truth, else 1; also if the number of frames depends on the picture
     /// (MethodOptions::maxStepPx).
     [[nodiscard]] static uint32_t
     countSteps(const MethodOptions& method, AntiAliasing antiAliasing = AntiAliasing::None);
@@ -164,7 +164,7 @@ class PictureDrawer {
         bool hasRaster = false; ///< the method kept it
     };
 
-    /// Effects, made when first used, and what has been collected of the slot's picture.
+    /// Effects, created on first use, and the collected results of the slot's picture.
     struct Slot {
         std::unique_ptr<motion_blur::MotionBlurPlugin> motionBlur;
         std::unique_ptr<depth_of_field::DepthOfField> depthOfField;
@@ -190,7 +190,7 @@ class PictureDrawer {
         /// Of PictureRequest::exposureParts; null: the whole exposure.
         const extract::ExposurePart* exposure = nullptr;
         bool isFirstOfExposure = true;
-        bool isLastOfExposure = true; ///< the one that the frame after looks things up in
+        bool isLastOfExposure = true; ///< the one in which the next frame looks up surfaces
     };
 
     /// A submitted frame: what to do with it when it is finished.
@@ -256,7 +256,7 @@ class PictureDrawer {
     );
     [[nodiscard]] bool isGoodEnough(const PictureRequest& request, uint32_t rays) const;
     [[nodiscard]] render::FrameResult takeOnly();
-    /// Says of the picture that its exposure was drawn in parts.
+    /// Adds the explanation that the picture's exposure was drawn in parts.
     static void explainParts(render::FrameStatistics& statistics, size_t parts);
     /// Adds what a frame's passes wrote to the picture's.
     static void keepTrace(Slot& slot, std::vector<render::WrittenImage> written);

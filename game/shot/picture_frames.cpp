@@ -244,7 +244,7 @@ core::Status PictureDrawer::submitFrameBefore(
     before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
     std::vector<render::PostEffect*> effects{prepareTaa(request)};
-    // In each: what it draws over the raster itself must not be gathered as static.
+    // In each frame: particles that the method draws itself must not be accumulated as static.
     if (usesFrameBefore(request.method))
         for (render::PostEffect* effect : prepareBlurs(request, {}))
             effects.push_back(effect);

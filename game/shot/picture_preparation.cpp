@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has to be known of a picture before its frames can be drawn: what its shutter caps, how many
-// instants it takes, and in what parts.
+// Computes properties of a picture before its frames are drawn: motion cap, number of instants,
+// parts of the exposure.
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "game/shot/picture_drawer.h"
@@ -44,7 +44,7 @@ checkSize(const gpu::Device& device, const MethodInfo& method, uint32_t width, u
     return {};
 }
 
-/// "; --device 'llvmpipe' can", or nothing where no other device of the machine can.
+/// "; --device 'llvmpipe' can", or nothing if no other device of the machine can.
 std::string suggestDevice(const gpu::Device& device, const MethodInfo& method) {
     std::vector<gpu::DeviceInfo> others = gpu::listDevices(device.instance());
     std::erase_if(others, [&](const gpu::DeviceInfo& other) {
@@ -128,7 +128,7 @@ std::vector<extract::ExposurePart> PictureDrawer::planExposure(
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
     SHUTTER_CHECK(!request.frame.view.usesLens, "a step by motion knows nothing of a lens");
     if (!request.instants) {
-        finishUntil(0); // measuring draws frames of its own
+        finishUntil(0); // measuring draws additional frames
         const auto path = mRenderer.measureLongestPath(world, request.frame.view);
         if (!path)
             return path.error();
@@ -152,8 +152,8 @@ core::Result<scene::MotionCap>
 PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
     extract::ViewRequest look = view;
     if (std::isfinite(view.exposure.shutter.maxBlurPercent)) {
-        finishUntil(0); // measuring draws frames of its own
-        // What jumps goes no way from one place to the other.
+        finishUntil(0); // measuring draws additional frames
+        // Jumps have no motion between their places.
         const auto parts = extract::planExposureParts(world, mRenderer.scene().layout(), view);
         if (!parts.empty())
             look.exposure = parts.back().exposure;

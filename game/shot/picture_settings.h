@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a picture is made with beside the motion blur, alike in `render`, `bench` and `play`: the
+// Settings of a picture other than the motion blur's, shared by `render`, `bench` and `play`: the
 // command line, the panel, the settings file, its schema and the fingerprint are loops over
 // visitPictureRows().
 #pragma once
@@ -16,7 +16,7 @@ namespace shutter::game {
 
 /// How a picture of one raster image gets smooth edges.
 enum class AntiAliasing : uint8_t {
-    None, ///< it does not: one sample a pixel
+    None, ///< none: one sample per pixel
     Taa,  ///< by the frames before (modules/taa)
     Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
 };

@@ -202,7 +202,7 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
         shot.framedAt = findFramingTime(options);
     shot.world.registry.add(shot.camera, options.shutter);
     SHUTTER_TRY(setLens(shot.world, shot.camera, options));
-    // Surroundings of its own light a scene; a sky is that of the scene's sun.
+    // An environment picture lights a scene; a sky follows the scene's sun.
     if (options.environment.empty() && !shot.world.assets.environment)
         lightUnlitScene(shot.world);
     SHUTTER_TRY(addSurroundings(shot.world, options));

@@ -25,7 +25,7 @@ struct Shot {
 [[nodiscard]] core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options);
 
 /// Loads the scene (its warnings are logged), picks or makes the camera (a flythrough flies its
-/// own), puts the shutter on it, selects clips, and lights a scene that has no light of its own.
+/// own), puts the shutter on it, selects clips, and lights a scene that has no lights.
 [[nodiscard]] core::Result<Shot> loadShot(const ShotOptions& options);
 
 /// The shot's view of the frame at `seconds`.

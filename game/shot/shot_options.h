@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn, and by which method: checked, in engine terms. game/options makes these from the
+// Options of a shot and its method, validated and in engine types. game/options makes them from the
 // command line.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace shutter::game {
 /// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
 inline constexpr double kMaxSeconds = 1.0e9;
 
-/// A scene, its camera, frames, light and look.
+/// A scene, its camera, frames, lighting and appearance.
 struct ShotOptions {
     std::filesystem::path scene;
     io::Reach reach = io::Reach::Folder; ///< the files that the scene, or a script, may name

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a world is lit by beside its own lights: a picture of all directions, or a sky.
+// Image-based light of a world, in addition to its lights: an equirectangular picture, or a sky.
 #pragma once
 
 #include "engine/core/result.h"
@@ -11,10 +11,10 @@
 
 namespace shutter::game {
 
-/// Gives the world a clear sky whose sun is its first directional light, at `seconds`; a world
-/// without one gets the sky of a sun above left, which casts no light of its own.
+/// Gives the world a clear sky whose sun is its first directional light, at `seconds`; without one,
+/// the sky of a sun above left, which itself casts no light.
 /// \param turbidity [environment::kLeastTurbidity, environment::kMostTurbidity]
-/// \param intensity factor of the sky's light beside the sun's, [0, 1000]; 1: as it is outside
+/// \param intensity factor of the sky's light relative to the sun's, [0, 1000]; 1: physical
 void addSky(scene::World& world, double turbidity, double intensity, double seconds);
 
 /// Gives the world what `options` name; does nothing where they name neither.

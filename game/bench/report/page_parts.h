@@ -28,9 +28,9 @@ namespace shutter::bench {
 /// The page's own scripts, one after another: they run as one ECMAScript module.
 [[nodiscard]] std::string joinReportScripts();
 
-/// Replaces each `{{name}}` of `page` by its value. What is put in is not searched again, so a
-/// value may hold braces. Error: a placeholder without a value, a value without a placeholder, or
-/// `{{` without `}}`.
+/// Replaces each `{{name}}` of `page` by its value. Inserted text is not searched again, so a value
+/// may contain braces. Error: a placeholder without a value, a value without a placeholder, or `{{`
+/// without `}}`.
 [[nodiscard]] core::Result<std::string>
 fillPage(std::string_view page, const std::map<std::string, std::string_view>& values);
 

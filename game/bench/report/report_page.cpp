@@ -40,7 +40,7 @@ core::Status checkResults(const json& results) {
 }
 
 std::string toScript(const json& value) {
-    // A name need not be UTF-8; what is not is replaced.
+    // A name need not be UTF-8; invalid bytes are replaced.
     return escapeForScript(value.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 

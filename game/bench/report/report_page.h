@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The benchmark's report: results (README.md, "results.json") as one HTML file that needs nothing
-// else, neither the network nor the pictures beside it.
+// The benchmark's report: results (README.md, "results.json") as one self-contained HTML file,
+// without network access or separate pictures.
 #pragma once
 
 #include "engine/core/result.h"
@@ -16,7 +16,8 @@ namespace shutter::bench {
 
 /// Writes folder/index.html, atomically, with every film and picture that `results` names (files
 /// relative to `folder`) inside it (page_parts.h). Error: no Chart.js, `results` is not of this
-/// schema and version, a file is missing or not what its name says, or the page cannot be written.
+/// schema and version, a file is missing or of another type than its name suggests, or the page
+/// cannot be written.
 [[nodiscard]] core::Status
 writeReportPage(const nlohmann::json& results, const std::filesystem::path& folder);
 

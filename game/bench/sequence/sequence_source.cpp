@@ -24,7 +24,7 @@ namespace shutter::bench {
 
 namespace {
 
-/// What is simulated is known up to now, so the exposure ends there; half a frame, as a film's.
+/// Simulated motion is known up to now, so the exposure ends there; half a frame, as for film.
 scene::CameraShutter makeDemoShutter() {
     scene::CameraShutter shutter;
     shutter.mode = scene::ShutterMode::Angle;

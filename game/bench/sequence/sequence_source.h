@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The frames of a sequence, one after another: of a flight through a scene, or of a demo played by
-// its script. What is drawn of a frame is the caller's.
+// its script. The caller draws the frames.
 #pragma once
 
 #include "engine/core/result.h"
@@ -27,7 +27,7 @@ struct SequenceFiles {
 [[nodiscard]] core::Result<SequenceFiles>
 writeSequenceFiles(const SequenceCase& film, const std::filesystem::path& folder);
 
-/// Where a camera is and what it sees, at one time.
+/// A camera's pose and view at one time.
 struct StandingView {
     math::Transform pose; ///< in the world
     scene::Camera lens;

@@ -28,7 +28,7 @@ struct Case {
     std::function<core::Status(const std::filesystem::path&)> writeScene;
     /// Binary glTF file that the scene is made from, relative to the folder of rooms; empty: none.
     std::string room;
-    void (*furnish)(generator::GltfWriter& writer) = nullptr; ///< what is added to `room`
+    void (*furnish)(generator::GltfWriter& writer) = nullptr; ///< adds objects to `room`
 };
 
 /// A point of a scaling curve.
@@ -53,7 +53,7 @@ struct SequenceCase {
     std::string title;
     std::string description;
     game::ShotArguments shot; ///< of a flight; of a demo its shutter and size
-    /// Writes the scene to a file, for a demo called as the demo asks for it.
+    /// Writes the scene to a file, named as the demo requires for demos.
     std::function<core::Status(const std::filesystem::path&)> writeScene;
     std::string demo;        ///< of game::listDemos(); empty: a flight
     std::string_view script; ///< text of the flythrough, or of the demo's input script

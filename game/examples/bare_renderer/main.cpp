@@ -54,7 +54,7 @@ struct Image {
     }
 };
 
-using Images = std::array<const Image*, 3>; // opaque colour; its motion and depth; what is blended
+using Images = std::array<const Image*, 3>; // opaque colour; its motion and depth; blended surfaces
 
 /// Clears rectangles: stripes at rest, 10 m away, the square at 5 m; the spark is blended.
 void draw(const vk::raii::CommandBuffer& commands, const Images& images, int x) {
@@ -77,8 +77,8 @@ void draw(const vk::raii::CommandBuffer& commands, const Images& images, int x) 
     for (int left = 0; left < int(kWidth); left += 10)
         fill({{left, 0}, {10, kHeight}}, {left % 20 ? 0.1f : 0.5f, 0.3f, 0.4f, 1}, {0, 0, 10, 0});
     fill({{x, 60}, {60, 60}}, {1, 0.3f, 0.1f, 1}, {kSpeedPx, 0, 5, 0});
-    // Over the exposure: 6 px wide, it lies before each column for a share of the time. It hides
-    // half of what is behind it.
+    // Over the exposure: 6 px wide, it covers each column for a share of the time, with an opacity
+    // of one half.
     for (int i = 0; i < int(kSpeedPx) + 6; ++i) {
         const float share = float(std::min({i + 1, 6, int(kSpeedPx) + 6 - i})) / kSpeedPx;
         const std::array premultiplied{share, share, share, 0.5f * share};
@@ -128,7 +128,7 @@ int main() try {
     copies.bindMemory(*memory, 0);
     auto blur = shutter::MotionBlur::create({*physical, *gpu.device, 0, kInFlight}); // (2) once
     require(bool(blur), blur.message().c_str());
-    shutter::BlurInputs inputs(kWidth, kHeight); // (3) what it reads and writes
+    shutter::BlurInputs inputs(kWidth, kHeight); // (3) its inputs and outputs
     inputs.color = shutter::BlurImage(*color.image, VkImageLayout(kTarget), VkImageLayout(kSource));
     inputs.motionDepth = shutter::BlurImage(*motion.image, VkImageLayout(kTarget), {});
     inputs.blended = shutter::BlurImage(*blended.image, VkImageLayout(kTarget), {});

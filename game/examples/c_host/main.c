@@ -93,7 +93,7 @@ int main(void) {
     ShutterBlur* blur = NULL;
     device.physical = sPhysical, device.device = sDevice;
     check(shutterBlurCreate(&device, &blur));
-    ShutterBlurInputs inputs = shutterBlurDefaultInputs(); /* (3) what it reads and writes */
+    ShutterBlurInputs inputs = shutterBlurDefaultInputs(); /* (3) its inputs and outputs */
     inputs.width = kWidth, inputs.height = kHeight;
     inputs.color.format = VK_FORMAT_R32G32B32A32_SFLOAT; /* blurred in place: there is no output */
     inputs.vectors.format = VK_FORMAT_R32G32_SFLOAT, inputs.depth.format = VK_FORMAT_R32_SFLOAT;

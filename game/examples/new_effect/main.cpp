@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a glTF scene with the motion blur and then an effect of its own (vignette.h, .comp).
+// Draws a glTF scene with the motion blur and then a custom effect (vignette.h, .comp).
 #include "vignette.h"
 
 #include "engine/gltf/gltf_loader.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A post effect of its own: darkens the picture towards its corners, in place.
+// A custom post effect: darkens the picture towards its corners, in place.
 #pragma once
 #include "engine/graph/execute.h"
 #include "engine/render/post_effect.h"
