@@ -10,7 +10,8 @@ struct AccumulateParams {
     uvec2 sizePx;
     uint clears;  // 1: the sum starts with this frame
     float weight; // of this frame
-    float scale;  // of the sum behind it: at the last frame what turns it into the mean, else 1
+    float scale;  // factor of the resulting sum: 1, or at the last frame 1 / count, which gives the
+                  // mean
 };
 
 SHUTTER_SHADER_END

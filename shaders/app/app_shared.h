@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn into the program's window: pictures, then the panels over them.
+// Drawing into the program's window: pictures, then the panels over them.
 #ifndef SHUTTER_APP_SHARED_H
 #define SHUTTER_APP_SHARED_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half of the resolution, by the 13 taps of Jimenez 2014 ("Next Generation Post Processing in Call of
-// Duty: Advanced Warfare"), which leave no blocks behind what moves.
+// Half of the resolution, by the 13 taps of Jimenez 2014 ("Next Generation Post Processing in Call
+// of Duty: Advanced Warfare"), which leave no blocks behind movers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

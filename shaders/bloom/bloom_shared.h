@@ -9,8 +9,8 @@ SHUTTER_SHADER_BEGIN
 struct BloomParams {
     uvec2 sizePx;    // of the image that is written
     uvec2 sourcePx;  // of the one that is filtered: the finer one on the way down, the coarser up
-    float share;     // up: of the coarser image in what is written
-    float threshold; // of what is scattered of the finer image; 0: all of it
+    float share;     // up: weight of the coarser image in the output
+    float threshold; // of the scattered light of the finer image; 0: all of it
     float knee;      // of the threshold, in its unit
 };
 

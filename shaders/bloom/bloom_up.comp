@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A finer image mixed with a coarser one, which is spread by a tent (Jimenez 2014). What is added was
-// taken away: the picture keeps its light.
+// A finer image mixed with a coarser one, which is spread by a tent (Jimenez 2014). The added light
+// was subtracted before: the total light is preserved.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -10,7 +10,7 @@ SHUTTER_SHADER_BEGIN
 
 SHUTTER_CONST float kApertureHalfTurn = 3.14159265f;
 
-/// Opening of a lens, whose half height is 1; scene::CameraLens says what the fields mean.
+/// Opening of a lens, whose half height is 1; scene::CameraLens documents the fields.
 struct Aperture {
     uint blades; // 0: a disc
     float rotation;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the surfaces that a raster image holds are seen at other instants of the exposure. A mover
-// is a rigid body with a motion of its own; all that is static in the world is one, the sky
-// another.
+// Motion of the surfaces of a raster image to other instants of the exposure. A mover is a rigid
+// body with its own motion; everything static in the world is one mover, the sky another.
 //
 // Picture space at a time is (x q, y q, depth, 1): x, y pixels from the top left corner, depth
 // metres along the view direction, q the depth (perspective) or 1 (orthographic). Rigid motion, the
@@ -25,7 +24,8 @@ struct LayerMotion {
     uvec2 movers;  // address of uint[]: by row of the raster's entity table, and one for the sky
     uvec2 motions; // address of InstantMotion[]: for each mover one per instant
     uint rowCount; // of the entity table
-    uint isStill;  // 1: what is static in the world is where the raster has it, at all instants
+    uint isStill;  // 1: static entities have the same place in the picture at all instants, as in
+                   // the raster
 };
 
 /// What a frame's rasters and the one of the frame before hold.
@@ -38,8 +38,9 @@ struct InstantMotions {
     uvec2 secondRows;
     uvec2 lastRows;
     uvec2 times; // address of float[]: shutter time of each instant
-    // Address of vec4[]: how far each instant's place of the lens moves what is seen, pixels. What
-    // a pinhole in its middle sees at depth z is seen xy + zw / z from there. 0: there is no lens.
+    // Address of vec4[]: displacement in the picture by each instant's place of the lens, pixels. A
+    // point at depth z is displaced by xy + zw / z from its place for a pinhole at the lens's
+    // centre. 0: there is no lens.
     uvec2 lens;
     // Lens at the raster's time: depth z has a circle of confusion of diameter 2 |x - y / z|,
     // pixels.
@@ -51,9 +52,9 @@ struct InstantMotions {
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.
 SHUTTER_CONST uint kWorldMover = 0u; // is static in the world
 SHUTTER_CONST uint kSkyMover = 1u;
-/// Its shape changes: its pixels' motion vectors say where it is.
+/// Its shape changes: its pixels' motion vectors give its motion.
 SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;
-/// What the raster holds of it says nothing about the exposure.
+/// Its pixels in the raster are not used for the exposure.
 SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
 
 /// Sets of instants with a lens, which pixels take turns in: one for each of 4 x 4.

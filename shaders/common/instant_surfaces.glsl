@@ -9,7 +9,7 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Parts of the exposure whose colours are told apart, at most.
+/// Maximum number of parts of the exposure with separate colours.
 SHUTTER_CONST uint kMostSurfaceParts = 4u;
 
 struct InstantSurfaces {
@@ -21,8 +21,8 @@ struct InstantSurfaces {
     uint padding1;
 };
 
-/// The `index`th of `count` instants taken out of `all`: spread evenly, and alike in both directions of
-/// time, so that what is left out moves no picture.
+/// The `index`th of `count` instants taken out of `all`: spread evenly, and symmetric in time, so
+/// that omitted instants do not displace the picture.
 SHUTTER_INLINE uint takenInstant(uint index, uint count, uint all) {
     uint fromEnd = index < count - 1u - index ? index : count - 1u - index;
     uint taken = uint((float(fromEnd) + 0.5f) * (float(all) / float(count)));
@@ -34,8 +34,8 @@ SHUTTER_INLINE uint surfacePartOf(InstantSurfaces head, uint instant) {
     return instant * head.partCount / head.instantCount;
 }
 
-/// Size of what is allocated for a rectangle: in steps, so that one that moves finds again what was
-/// made for it in the frames before.
+/// Allocated size for a rectangle, rounded up in steps, so that a moving one reuses the images of
+/// earlier frames.
 SHUTTER_INLINE uvec2 sizeInSteps(uvec2 sizePx) {
     return (sizePx + 63u) / 64u * 64u;
 }

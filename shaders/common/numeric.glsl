@@ -13,8 +13,8 @@ SHUTTER_INLINE float luminance(vec3 color) {
     return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-/// False for NaN and infinity. Tests the bits: a Vulkan compiler may assume that no float is either,
-/// and drop a comparison that would tell.
+/// False for NaN and infinity. Tests the bits: a Vulkan compiler may assume that there are none,
+/// and remove a comparison that tests for them.
 SHUTTER_INLINE bool isFinite(float x) { return (floatBitsToUint(x) & 0x7F800000u) != 0x7F800000u; }
 
 /// True for NaN alone. Tests the bits, for the same reason.

@@ -33,7 +33,7 @@ struct ParticleEmitterRow {
     vec4 colors[3];   // at birth, half of the life and death: linear, opacity
     vec2 sizes;       // metres across at birth and death
     float softMetres;
-    float secondsPerExposure; // its own time that passes from shutter open to close; 0: it stands
+    float secondsPerExposure; // the emitter's time from shutter open to close; 0: it is static
     float cameraShare;        // how many times as fast the camera's time runs for it
     uint texture;             // index of the bindless array, or kNoParticleTexture
     float textureTexels;      // its longer side
@@ -51,7 +51,7 @@ struct ParticleDraw {
                      // instant
     vec2 jitter;     // added to the picture's places in clip space
     float rasterTime;
-    uint cameraCount; // 1: the camera stands
+    uint cameraCount; // 1: the camera is static
 };
 
 /// (1 - e^-x) / x, and (1 - that) / x. Series near 0, where the differences lose all their digits;

@@ -15,7 +15,7 @@ SHUTTER_INLINE uint hashPcg(uint x) {
     return (word >> 22u) ^ word;
 }
 
-/// A number of its own for a place of the picture, a seed and a stream.
+/// A distinct number for a place of the picture, a seed and a stream.
 SHUTTER_INLINE uint hashPixel(uvec2 pixel, uint seed, uint stream) {
     return hashPcg(pixel.x + hashPcg(pixel.y + hashPcg(seed + hashPcg(stream))));
 }

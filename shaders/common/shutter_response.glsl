@@ -36,7 +36,7 @@ SHUTTER_INLINE uint findSegment(ResponseRef response, uint first, float u) {
 }
 
 #ifdef __cplusplus
-/// Inverts the knots once, so that no look-up has to search among them. The knots must be set.
+/// Inverts the knots once, so that no lookup has to search among them. The knots must be set.
 inline void fillFirstKnots(ResponseTable& table) {
     for (uint cell = 0u; cell < kResponseCells; ++cell)
         table.firstKnots[cell] = findSegment({table}, 0u, float(cell) / float(kResponseCells));

@@ -8,8 +8,9 @@
 SHUTTER_SHADER_BEGIN
 
 SHUTTER_CONST uint kMaxResponseKnots = 64u;
-/// Equal shares of the light, each of which knows where a look-up begins: twice the knots, so that
-/// one goes past less than half a knot on average, however the knots lie. A power of two.
+/// Equal shares of the light, each with the knot at which a lookup begins: twice the number of
+/// knots, so that a lookup skips less than half a knot on average for any distribution of knots. A
+/// power of two.
 SHUTTER_CONST uint kResponseCells = 128u;
 
 struct ResponseKnot {
@@ -19,7 +20,7 @@ struct ResponseKnot {
     float padding0;
 };
 
-/// By address; address 0 stands for a box, which needs none.
+/// Accessed by address; address 0 is a box, which needs no table.
 struct ResponseTable {
     uint knotCount; // 2 to kMaxResponseKnots; the first at s 0, the last at 1
     uint padding0;

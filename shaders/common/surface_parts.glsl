@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colours of the exposure's parts out of `uHead` and `uWords`, the buffer of an InstantSurfaces, which
-// whoever includes this declares before.
+// Colours of the exposure's parts out of `uHead` and `uWords`, the buffer of an InstantSurfaces,
+// which the including shader declares before.
 #ifndef SHUTTER_SURFACE_PARTS_GLSL
 #define SHUTTER_SURFACE_PARTS_GLSL
 
@@ -10,7 +10,7 @@ vec4 colorOfPart(uint part, uvec2 inRectangle) {
     return vec4(unpackHalf2x16(uWords[word]), unpackHalf2x16(uWords[word + 1u]));
 }
 
-/// What lies behind in a part. \param picture its whole mean, which counts where the part has none
+/// The background in a part. \param picture mean of all parts, used if the part has none
 vec3 behindPart(uint part, uvec2 inRectangle, vec3 picture) {
     vec4 own = colorOfPart(part, inRectangle);
     return own.a > 0.0f ? own.rgb : picture;

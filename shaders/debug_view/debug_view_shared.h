@@ -14,7 +14,7 @@ SHUTTER_CONST uint kShowColor = 4u;      // linear light, cut off at 1
 SHUTTER_CONST uint kShowMasks = 5u;      // channels as they are, [0, 1]
 SHUTTER_CONST uint kShowGrey = 6u;       // x, [0, 1]
 SHUTTER_CONST uint kShowHeat = 7u;       // x from 0 to heatMax: black, blue, red, yellow, white
-SHUTTER_CONST uint kShowUnresolved = 8u; // masked pixels at which no other object was revealed
+SHUTTER_CONST uint kShowUnresolved = 8u; // masked pixels without another object behind
 
 struct DebugViewParams {
     uvec2 sizePx; // of the picture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a lens spreads what is at a depth, and where taps of a disc lie.
+// Circle of confusion by depth, and the taps of a disc.
 #ifndef SHUTTER_DEPTH_OF_FIELD_CONFUSION_GLSL
 #define SHUTTER_DEPTH_OF_FIELD_CONFUSION_GLSL
 
@@ -14,8 +14,8 @@ SHUTTER_CONST float kUnitDiscArea = 3.14159265f;
 /// Below it a circle of confusion lies within the pixel.
 SHUTTER_CONST float kSharpPx = 0.5f;
 
-/// Radius of the circle of confusion, pixels: negative before what is in focus, positive behind, at most
-/// the reach of the tiles. Of a depth that is not a number or not above 0 there is none.
+/// Radius of the circle of confusion, pixels: negative in front of the focus plane, positive
+/// behind, at most the reach of the tiles. 0 for a depth that is NaN or not above 0.
 /// \param depth metres
 SHUTTER_INLINE float confusionRadius(LensFilterParams params, float depth) {
     if (!isFinite(depth) || depth <= 0.0f) return 0.0f;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", depth of field:
-// scatter as you gather. Taps over the largest circle of confusion within reach count where their own
-// circle comes here, by its density; depth separates them into what lies at the neighbourhood's
-// nearest depth and what lies behind, and the first is laid over the second by the share of the disc
-// that it covers.
+// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", depth of
+// field: scatter as you gather. Taps over the largest circle of confusion within reach count where
+// their own circle comes here, by its density; depth separates them into a foreground at the
+// neighbourhood's nearest depth and a background, and the first is composited over the second by
+// the share of the disc that it covers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -19,7 +19,7 @@ struct Classes {
 };
 
 /// \param distancePx of the tap from the pixel \param nearest radius of the neighbourhood's nearest depth
-/// \param area in pixels that the tap stands for, in units of an outer tap's
+/// \param area in pixels that the tap represents, in units of an outer tap's
 void add(inout Classes sums, Tap tap, float distancePx, float nearest, float area) {
     float radius = max(abs(tap.confusion), kDiagonalPx);
     float density = 1.0f / (kUnitDiscArea * radius * radius);
@@ -45,7 +45,7 @@ void main() {
     float tapArea = kUnitDiscArea * reach.x * reach.x / float(params.tapCount);
     float turn = findTurn(pixel);
     Classes sums = Classes(vec4(0.0f), vec4(0.0f));
-    // The pixel itself stands for its own area.
+    // The centre tap represents the pixel's area.
     add(sums, takeTap(centre), 0.0f, nearest, 1.0f / tapArea);
     for (uint i = 0u; i < params.tapCount; ++i) {
         vec2 offset = reach.x * discTap(i, params.tapCount, turn);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A near field over a far field (Sousa 2013, "CryENGINE 3 Graphics Gems"; Abadie 2018, "A Life of a
-// Bokeh"). The near field gathers over the largest circle of confusion within reach and covers what the
-// circles of its taps do; the far field gathers over the pixel's own circle, and what is in focus does
-// not leak into it. Behind a pixel of the near field lies the mean of the taps that are not near.
+// Bokeh"). The near field gathers over the largest circle of confusion within reach and has the
+// coverage of the circles of its taps; the far field gathers over the pixel's own circle, without
+// leaks from surfaces in focus. Behind a pixel of the near field lies the mean of the taps that are
+// not near.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -25,8 +26,8 @@ vec4 spreadNear(Tap tap, float distancePx) {
 
 NearField gatherNear(vec2 centre, float reach, float turn) {
     NearField near = NearField(vec4(0.0f), vec4(0.0f), 0.0f);
-    // The pixel itself stands for its own area where taps far apart miss it, and with it a circle that
-    // is little larger.
+    // The centre tap represents the pixel's area, which widely spaced taps miss, along with circles
+    // little larger than it.
     Tap own = takeTap(centre);
     float tapArea = kUnitDiscArea * reach * reach / float(params.tapCount);
     float missed = saturate(1.0f - 1.0f / tapArea);
@@ -40,7 +41,8 @@ NearField gatherNear(vec2 centre, float reach, float turn) {
         }
         near.light += spreadNear(tap, length(offset));
     }
-    // A tap stands for the area of the disc by their number, and its light for the area of its circle.
+    // A tap represents the disc's area divided by their number, and its light the area of its
+    // circle.
     near.covered = saturate(near.light.w * tapArea / kUnitDiscArea);
     return near;
 }
@@ -58,7 +60,7 @@ vec4 gatherFar(vec2 centre, float radius, float turn) {
     return light;
 }
 
-/// What lies behind the near field. \param radius the pixel's own, signed
+/// The background of the near field. \param radius the pixel's own, signed
 vec3 findFar(vec2 centre, float radius, float turn, NearField near, vec3 own) {
     if (radius < -kSharpPx)
         return near.behind.w > 0.0f ? near.behind.rgb / near.behind.w : near.light.rgb / near.light.w;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces the samples whose guess may do the most harm, each at its own time through the moving scene,
-// as far as the frame's rays go; looks the others of the pixel up again.
+// Traces the samples with the largest expected error, each at its time through the moving scene,
+// within the frame's ray budget; looks up the pixel's other samples again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -28,8 +28,8 @@ vec3 stepOf(ShutterRay ray) { return ray.direction / dot(ray.direction, ray.forw
 /// Through the instant's place of the lens: what that moves to `place` from where a pinhole has it.
 ShutterRay makeSampleRay(FrameRef frame, TimedRef moving, vec2 place, uint instant, float s) {
     if (!kHasLens) return makeShutterRay(frame, moving, place, s);
-    // At depth z that is from place - xy - zw / z: a line, which leaves the camera's plane beside its
-    // middle by as much as pixels are apart at depth 1.
+    // At depth z the ray starts from place - xy - zw / z: a line that leaves the camera's plane off
+    // its centre, scaled by the pixel spacing at depth 1.
     vec4 lens = lensOf(InstantMotionsRef(method.motions), instant);
     ShutterRay ray = makeShutterRay(frame, moving, place - lens.xy, s);
     const float kFarPx = 64.0f; // for digits

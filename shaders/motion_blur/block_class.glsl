@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tile's neighbourhood and a block of pixels ask of the filters.
+// Classes of tile neighbourhoods and of blocks of pixels, by the filter that they need.
 #ifndef SHUTTER_MOTION_BLUR_BLOCK_CLASS_GLSL
 #define SHUTTER_MOTION_BLUR_BLOCK_CLASS_GLSL
 
@@ -8,11 +8,11 @@
 
 SHUTTER_SHADER_BEGIN
 
-// In the order of what they ask for; stored as floats, which every sampler reads.
+// In order of cost; stored as floats, which every sampler can read.
 SHUTTER_CONST float kClassStill = 0.0f;   // nothing within reach moves
 SHUTTER_CONST float kClassUniform = 1.0f; // all within reach moves by the dominant motion
 SHUTTER_CONST float kClassMixed = 2.0f;   // anything else, at depths too alike to hide anything
-SHUTTER_CONST float kClassDeep = 3.0f;    // the same, and what is deeper may come into sight
+SHUTTER_CONST float kClassDeep = 3.0f;    // the same, and a deeper surface may become visible
 
 /// Deviation from the dominant motion within which motion is uniform, pixels. With a deviation e
 /// the weight of a tap at u of the motion v is off by at most u e / v of the cone's part of it; the
@@ -47,12 +47,12 @@ SHUTTER_INLINE ivec2 tileAt(vec2 positionPx, uint tileSizePx, uvec2 tileCount) {
     return clamp(tile, ivec2(0), ivec2(tileCount) - 1);
 }
 
-// Pixels look tiles up at their centres, or up to a margin beyond. A quarter of a pixel is added to
-// that: a centre may lie where a tile begins, where a quotient that is off by its last bits, as
-// Vulkan allows, has the wrong floor.
+// Pixels look up tiles at their centres, or up to a margin beyond. A quarter of a pixel is added: a
+// centre may lie at the beginning of a tile, where a quotient with rounding errors, as Vulkan
+// permits, has the wrong floor.
 SHUTTER_CONST float kTileSlackPx = 0.25f;
 
-/// Nearest the origin of the tiles that the pixels of a block look up.
+/// Of the tiles that the pixels of a block look up, the one nearest to the origin.
 /// \param first its first corner
 SHUTTER_INLINE ivec2
 lowestTile(vec2 first, float marginPx, uint tileSizePx, uvec2 tileCount) {

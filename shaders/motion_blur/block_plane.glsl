@@ -18,7 +18,7 @@ SHUTTER_CONST float kStretchTolerance = 0.02f;
 /// behind the camera.
 SHUTTER_CONST float kLeastDepthRatio = 1.0e-4f;
 
-/// Where the pixels of a block look into the raster at an instant: at place + perX * x + perY * y, x
+/// Sample positions of a block's pixels in the raster at an instant: place + perX * x + perY * y, x
 /// and y from the block's centre.
 struct PlaneMap {
     bool isAffine;    // within kStretchTolerance; false: the rest means nothing
@@ -39,7 +39,7 @@ planeGap(BlockPlane plane, vec2 centre, BlockPlane other, vec2 otherCentre) {
 
 /// \param instantFromRaster of the plane's mover (InstantMotion)
 /// \param centre of the plane's block in the raster, pixels
-/// \param x what looks: a block's centre at the instant, pixels
+/// \param x the centre of the sampling block at the instant, pixels
 SHUTTER_INLINE PlaneMap mapPlane(
     const vec4 instantFromRaster[3], BlockPlane plane, vec2 centre, vec2 x, bool perspective
 ) {

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
     uvec2 sizePx;
     PrepareArea area;
     uint noneValue;
-    uint rowCount; // 0: not said
+    uint rowCount; // 0: unknown
 } params;
 layout(binding = 0) uniform usampler2D uIds;
 layout(binding = 1, scalar) buffer Totals { CheckTotals totals; };

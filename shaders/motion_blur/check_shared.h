@@ -16,7 +16,7 @@ SHUTTER_CONST uint kCheckSamples = 2304u; // across times down
 SHUTTER_CONST uint kCheckFineAcross = 256u;
 SHUTTER_CONST uint kCheckFineDown = 144u;
 SHUTTER_CONST uint kCheckFinePixels = 36864u; // across times down
-/// Rows of entities below this are looked for in the picture.
+/// Rows of entities below this are searched in the picture.
 SHUTTER_CONST uint kCheckRows = 65536u;
 SHUTTER_CONST uint kCheckRowWords = 2048u; // a bit for each
 

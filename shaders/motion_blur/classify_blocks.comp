@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Sorts the picture's blocks into lists by what they need. A thread per block. A block is the most
-// demanding of the tiles its pixels look up, unless no smear reaches it.
+// Sorts the picture's blocks into lists by what they need. A thread per block. A block has the most
+// demanding class of the tiles that its pixels look up, unless no smear reaches it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/block_class.glsl"
 
-layout(constant_id = 0) const uint kForMask = 0u; // 1: what may be masked goes to the candidates
+layout(constant_id = 0) const uint kForMask = 0u; // 1: blocks that may be masked become candidates
 layout(constant_id = 1) const bool kListsStill = false; // else still blocks are in no list
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
@@ -29,7 +29,7 @@ vec2 uvOf(ivec2 tile) { return (vec2(tile) + 0.5f) / vec2(params.tileCount); }
 /// A tile that is farther than the next one never reaches a block: motion is no longer than a tile.
 bool isReached(vec2 first, vec2 end) {
     int ring = min(params.neighbourRadius, 1);
-    // Pixels may look up tiles beyond their own by a margin, and take what those reach.
+    // Pixels may look up tiles beyond their own by a margin, and gather their reach.
     ivec2 lowest = lowestTile(first, params.marginPx, params.tileSizePx, params.tileCount);
     ivec2 highest = highestTile(end, params.marginPx, params.tileSizePx, params.tileCount);
     lowest = max(lowest - ring, ivec2(0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Takes a host's answers in place of the samples that were asked for. A sample without an answer
-// stays as it was looked up, and so does a pixel without any.
+// Replaces requested samples by a host's answers. A sample without an answer retains its looked-up
+// colour, and so does a pixel without any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

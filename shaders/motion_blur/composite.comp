@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Puts the blended surfaces of one part of the exposure over what lies behind them in that part, and adds
-// that to the sum of the parts before; the last part's sum is the picture.
+// Composites the blended surfaces of one part of the exposure over their background in that part,
+// and adds the result to the sum of the earlier parts; the last part's sum is the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -46,7 +46,7 @@ void main() {
     vec4 blended = texelFetch(uBlendedColor, at, 0);
     float opacity = params.isOpacityInAlpha != 0u ? blended.a : texelFetch(uBlendedOpacity, at, 0).r;
     if (isNotANumber(opacity)) opacity = 0.0f;
-    // Alpha of the sum: what the layer lets through of all parts so far.
+    // Alpha of the sum: transmittance of the layer over all parts so far.
     float passed = clamp(params.share - opacity, 0.0f, params.share);
     bool isLast = params.part + 1u == params.partCount;
     vec3 picture = vec3(0.0f);

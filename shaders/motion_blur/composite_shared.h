@@ -14,7 +14,7 @@ struct CompositeParams {
     uint part; // of the exposure
     uint partCount;
     float share;           // of the exposure that the part is
-    uint isOpacityInAlpha; // of the colours; 0: in red of an image of its own
+    uint isOpacityInAlpha; // of the colours; 0: in red of a separate image
 };
 
 SHUTTER_SHADER_END

@@ -9,14 +9,14 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Fewer rays say too little of their own variance: it is then taken from the neighbours (SVGF,
-/// section 4.2).
+/// Fewer rays give too poor an estimate of their variance: it is then taken from the neighbours
+/// (SVGF, section 4.2).
 SHUTTER_CONST uint kRaysThatKnowVariance = 4u;
 
 /// Standard deviation of the mean of `count` values at stratified times, from their sum and the sum
-/// of their squares; 0 where there are too few to tell. A silhouette passes in one of the strata and
-/// leaves the others certain, so that the error falls with the count and not with its root
-/// (Mitchell 1996, "Consequences of Stratified Sampling in Graphics").
+/// of their squares; 0 if there are too few. A silhouette passes in one of the strata and leaves
+/// the others certain, so that the error falls with the count and not with its root (Mitchell 1996,
+/// "Consequences of Stratified Sampling in Graphics").
 SHUTTER_INLINE float deviationOfMean(float sum1, float sum2, uint count) {
     if (count < kRaysThatKnowVariance) return 0.0f;
     float n = float(count);

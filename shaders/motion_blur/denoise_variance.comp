@@ -15,7 +15,7 @@ layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform sampler2D uDominant;
 layout(binding = 3, rgba16f) uniform writeonly image2D uColorDeviation;
 
-/// Taps along the motion that ask whether something passes the pixel.
+/// Taps along the motion that detect surfaces passing the pixel.
 const int kPassersBy = 8; // to each side
 
 /// True where the pixel moves or something near it passes it. Elsewhere its rays have all seen the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The blurred picture for a dump, and behind it the number that tells that the frame was run.
+// Writes the blurred picture for a dump, followed by the number that marks the frame as run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// First two tests of the ray mask. A moving pixel is a candidate when its place one motion away
-// belongs to another mesh and lies deeper, and, with kFlagRelativeMask, moves otherwise; a candidate
-// is an edge when the 5x5 Sobel says so. Before it: `params`, `method` (HybridParams), and textures uMotionDepth, uNormal and uEntityId.
+// First two tests of the ray mask. A moving pixel is a candidate if its place one motion away
+// belongs to another mesh and lies deeper, and, with kFlagRelativeMask, moves differently; a
+// candidate is an edge if the 5x5 Sobel filter detects one. Before it: `params`, `method`
+// (HybridParams), and textures uMotionDepth, uNormal and uEntityId.
 #ifndef SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 #define SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 

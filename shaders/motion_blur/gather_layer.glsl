@@ -10,7 +10,7 @@ struct Gathered {
     float weight;
 };
 
-/// A pixel that looks for what passes over it.
+/// A pixel that gathers the surfaces that pass over it.
 struct Target {
     float depth;
     float speed;

@@ -8,8 +8,8 @@
 SHUTTER_SHADER_BEGIN
 
 // What the gathers' pipelines may be made for (gather_taps.glsl).
-SHUTTER_CONST uint kAnyTapCount = 0u; // as the push constants say
-SHUTTER_CONST uint kAnyResponse = 0u; // as the push constants say
+SHUTTER_CONST uint kAnyTapCount = 0u; // as in the push constants
+SHUTTER_CONST uint kAnyResponse = 0u; // as in the push constants
 SHUTTER_CONST uint kBoxResponse = 1u;
 SHUTTER_CONST uint kTableResponse = 2u; // not a box
 

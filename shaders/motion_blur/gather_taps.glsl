@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How many taps the gathers take, and where. One pipeline serves all settings by the push constants;
-// one that is made for the number of taps and for the kind of response lets the compiler unroll the
-// taps and fetch several at once. Before it: `params`.
+// Number and positions of the gather's taps. One pipeline serves all settings through push
+// constants; one specialised for the number of taps and the kind of response allows the compiler to
+// unroll the taps and fetch several at once. Before it: `params`.
 #ifndef SHUTTER_MOTION_BLUR_GATHER_TAPS_GLSL
 #define SHUTTER_MOTION_BLUR_GATHER_TAPS_GLSL
 
 #include "motion_blur/gather_shared.h"
 #include "motion_blur/taps.glsl"
 
-// Behind the list's number and what a shader has of its own.
+// After the list's number and the shader's own constants.
 layout(constant_id = 2) const uint kTapCount = kAnyTapCount;
 layout(constant_id = 3) const uint kResponse = kAnyResponse;
 

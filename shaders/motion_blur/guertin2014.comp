@@ -38,8 +38,8 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
     for (uint i = 0u; i < params.sampleCount; ++i) {
         bool isSecond = isSecondDirection(i, variance);
         vec2 direction = isSecond ? second : first;
-        // A still pixel's perpendicular has no side of its own: exposures that are not centred would
-        // look to one only.
+        // A static pixel's perpendicular has no sign: exposures that are not centred would sample
+        // one side only.
         if (isSecond && speed < kStillPx) side = -side;
         float u = warpTapAt(
             params.response, innerTapPosition(i, jitter, params.sampleCount, params.rasterTime),
@@ -71,7 +71,7 @@ void main() {
     );
     vec4 target = textureLod(uMotionDepth, uv, 0.0f);
     vec2 motion = limitMotion(target.xyz, float(params.tileSizePx), params.maxMotionDepth);
-    // The jitter may fetch a tile that is slower than the pixel is.
+    // Jitter may fetch a tile that is slower than the pixel.
     vec2 dominant = longerMotion(textureLod(uDominant, tile, 0.0f).xy, motion);
     // Nothing moves within reach: the sharp colour, bit for bit.
     if (length(dominant) < kStillPx) {

@@ -9,9 +9,10 @@
 SHUTTER_SHADER_BEGIN
 
 // Bits of HybridParams::flags.
-SHUTTER_CONST uint kFlagLuminanceTest = 1u;  // objects are told apart by luminance, not by id
+SHUTTER_CONST uint kFlagLuminanceTest = 1u;  // objects are distinguished by luminance, not by id
 SHUTTER_CONST uint kFlagSteppingReveal = 2u; // the reveal steps from surface to surface
-SHUTTER_CONST uint kFlagRelativeMask = 4u;   // masked only where what lies behind moves against it
+SHUTTER_CONST uint kFlagRelativeMask = 4u;   // masked only where the background moves relative to
+                                             // the foreground
 
 struct HybridParams {
     GatherParams gather;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Leaves what each pixel of a rectangle saw at some of the instants (common/instant_surfaces.glsl), for
-// what is drawn over the blurred picture.
+// Writes the surfaces visible in each pixel of a rectangle at some of the instants
+// (common/instant_surfaces.glsl), for surfaces drawn over the blurred picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -22,7 +22,7 @@ layout(binding = 23, scalar) buffer Surfaces {
     uint uWords[];
 };
 
-/// Whether anything may come over the pixel: nothing else was looked for anywhere.
+/// Whether any surface may move over the pixel; only such pixels were searched.
 bool mayChange(PixelSearch pixel) {
     if (kHasCrowds && pixel.isCrowded) return true;
     if (getCandidate(kRasterLayer, pixel.tile, 0u).key != kNoKey) return true;
@@ -61,7 +61,8 @@ void main() {
     for (uint i = 0u; i < uHead.instantCount; ++i) {
         float depth = shownDepth;
         if (changes) {
-            // What no raster shows was hidden in all of them, so it lies behind what they show.
+            // A surface that no raster shows was hidden in all of them, so it lies behind those
+            // that they show.
             depth = kFarthest;
             uint taken = takenInstant(i, uHead.instantCount, params.sampleCount);
             uint instant = taken * method.setCount + search.set;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Jimenez 2014: pairs of taps around the middle of the exposure, weights mirrored; what they leave
-// uncovered is the pixel's own colour.
+// Jimenez 2014: pairs of taps around the middle of the exposure, weights mirrored; the uncovered
+// share has the pixel's own colour.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -81,7 +81,7 @@ void main() {
     );
     vec4 target = textureLod(uMotionDepth, uv, 0.0f);
     vec2 motion = limitMotion(target.xyz, float(params.tileSizePx), params.maxMotionDepth);
-    // The jitter may fetch a tile that is slower than the pixel is.
+    // Jitter may fetch a tile that is slower than the pixel.
     vec2 dominant = longerMotion(textureLod(uDominant, tile, 0.0f).xy, motion);
     // Nothing moves within reach: the sharp colour, bit for bit.
     if (length(dominant) < kStillPx)

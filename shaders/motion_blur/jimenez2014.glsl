@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Jimenez: "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014,
-// motion blur: scatter as you gather, each tap asks whether its smear would come here.
+// motion blur: scatter as you gather: each tap is weighted by whether its smear covers this pixel.
 #ifndef SHUTTER_MOTION_BLUR_JIMENEZ2014_GLSL
 #define SHUTTER_MOTION_BLUR_JIMENEZ2014_GLSL
 
@@ -31,8 +31,8 @@ SHUTTER_INLINE float jimenezWeight(
 }
 
 /// Weights of the two samples of a pair, mirrored: where one is nearer and faster than the other,
-/// it covers the pixel for this share of the exposure and the other is the best guess at what is
-/// seen behind it, so both get the nearer one's weight.
+/// it covers the pixel for this share of the exposure and the other is the best estimate of the
+/// background, so both get the nearer one's weight.
 SHUTTER_INLINE vec2 mirrorWeights(vec2 weights, vec2 depths, vec2 speeds) {
     bool deeper = depths.x > depths.y;
     bool slower = speeds.y > speeds.x;

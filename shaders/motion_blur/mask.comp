@@ -14,9 +14,9 @@
 #define SHUTTER_BLOCK_LIST_ACCESS // the flags are written
 #include "motion_blur/block_list.glsl"
 
-/// 1: a group lists its pixels together, which takes two barriers and a handful of global atomics a
-/// block; 0: each masked pixel lists itself, by a few of its own. Where threads run on a CPU, waiting
-/// for each other costs more than atomics do, on a GPU less.
+/// 1: a group appends its pixels together, with two barriers and a few global atomics per block; 0:
+/// each masked pixel appends itself, with a few atomics. On a CPU device, barriers cost more than
+/// atomics, on a GPU less.
 layout(constant_id = 1) const uint kListTogether = 0u;
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
@@ -90,7 +90,7 @@ bool isMasked(ivec2 pixel) {
     vec3 target = textureLod(uMotionDepth, centre / vec2(params.sizePx), 0.0f).xyz;
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
     if (length(motion) < kStillPx) return false;
-    // A side that is not exposed holds only the pixel itself, which the other has looked at.
+    // A side that is not exposed holds only the pixel itself, which the other side has tested.
     if (params.rasterTime > 0.0f && meetsEdge(centre, motion * params.rasterTime, target.z))
         return true;
     return params.rasterTime < 1.0f &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A block's masked pixels as 64 bits, from which its threads find their places in the list without
-// asking each other in turn.
+// A block's masked pixels as 64 bits, from which its threads compute their places in the list
+// without synchronization.
 #ifndef SHUTTER_MOTION_BLUR_MASK_BITS_GLSL
 #define SHUTTER_MOTION_BLUR_MASK_BITS_GLSL
 

@@ -35,7 +35,7 @@ struct MotionBlurParams {
 // Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the
 // classification are dispatched over compacted lists of them. Four lists share a buffer.
 SHUTTER_CONST uint kUniformList = 0u; // all motion around is the dominant one
-SHUTTER_CONST uint kMixedList = 1u;   // no masked pixel in it, or no mask was asked for
+SHUTTER_CONST uint kMixedList = 1u;   // no masked pixel in it, or no mask was requested
 SHUTTER_CONST uint kMaskedList = 2u;  // masked pixels in it
 SHUTTER_CONST uint kStillList = 3u;   // nothing that moves reaches it; where it is wanted
 SHUTTER_CONST uint kListCount = 4u;
@@ -71,8 +71,8 @@ struct TileHeader {
     uint padding2;
 };
 
-/// In an entry of the list of masked pixels: what is revealed there is taken for the masked pixels
-/// of its quad, too, the first of which it is. Pictures are at most 32768 pixels high.
+/// In an entry of the list of masked pixels: the revealed background is used for all masked pixels
+/// of its quad, of which it is the first. Pictures are at most 32768 pixels high.
 SHUTTER_CONST uint kQuadFlag = 0x80000000u;
 
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.

@@ -15,8 +15,8 @@ layout(binding = 3, r32f) uniform writeonly image2D uTileClass;
 
 vec2 uvOf(ivec2 tile) { return (vec2(tile) + 0.5f) / vec2(params.tileCount); }
 
-/// Looks at the tiles that taps meet: no tap is farther than a tile is long, however many neighbours
-/// the dominant motion is sought in.
+/// Tests the tiles that taps reach: no tap is farther away than a tile's size, regardless of the
+/// size of the neighbourhood for the dominant motion.
 float classify(ivec2 tile, vec2 dominant) {
     float deviation = 0.0f;
     vec2 depth = vec2(3.0e38f, -3.0e38f);

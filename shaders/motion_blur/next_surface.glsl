@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How a ray goes on from a surface without meeting it again, and without missing what lies close
-// behind it. No offset does both: one that clears the error of the hit jumps over surfaces within
-// it, and at a kilometre that error is millimetres. So the ray starts before the surface, and what it
-// meets of the same entity within the error is that surface.
+// Continues a ray from a surface without hitting it again and without missing surfaces close behind
+// it. No offset achieves both: one that exceeds the error of the hit skips surfaces within it, and
+// at a kilometre that error is millimetres. So the ray starts in front of the surface, and hits of
+// the same entity within the error are that surface.
 #ifndef SHUTTER_MOTION_BLUR_NEXT_SURFACE_GLSL
 #define SHUTTER_MOTION_BLUR_NEXT_SURFACE_GLSL
 

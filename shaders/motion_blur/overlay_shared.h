@@ -12,7 +12,7 @@ SHUTTER_SHADER_BEGIN
 // picture's top, the others along its bottom.
 SHUTTER_CONST uint kPanelMotion = 0u;  // the motion that is blurred
 SHUTTER_CONST uint kPanelCamera = 1u;  // the camera's part of it
-SHUTTER_CONST uint kPanelObjects = 2u; // what is left: the motion of what moves by itself
+SHUTTER_CONST uint kPanelObjects = 2u; // the remainder: object motion
 SHUTTER_CONST uint kPanelDepth = 3u;   // near is bright
 SHUTTER_CONST uint kPanelWorld = 4u;   // cells of a metre that are static in the world
 SHUTTER_CONST uint kPanelIds = 5u;     // a colour for each entity

@@ -20,7 +20,7 @@ SHUTTER_INLINE vec2 placeInArea(PrepareArea area, vec2 place) {
     return area.origin + place * area.perPixel;
 }
 
-/// Metres along the view, (0, kSkyDepth]; the latter for the sky, and for what is no depth.
+/// Metres along the view, (0, kSkyDepth]; the latter for the sky and for invalid depths.
 SHUTTER_INLINE float metresOfDepth(PrepareTable table, float value) {
     if (!isFinite(value) || value == table.skyValue)
         return kSkyDepth;
@@ -31,8 +31,7 @@ SHUTTER_INLINE float metresOfDepth(PrepareTable table, float value) {
     return isFinite(metres) && metres > 0.0f ? min(metres, kSkyDepth) : kSkyDepth;
 }
 
-/// Displacement in a frame, pixels, of a place that is static in the world: what the camera's
-/// own motion makes of it. 0 where it cannot be told.
+/// Displacement of a static point during a frame by camera motion, pixels. 0 if it is unknown.
 SHUTTER_INLINE vec2 motionOfCamera(PrepareTable table, vec2 place, float metres) {
     bool isSky = metres >= kSkyDepth;
     bool isPerspective = prepareHas(table, kPreparePerspective);
@@ -50,7 +49,7 @@ SHUTTER_INLINE vec2 motionOfCamera(PrepareTable table, vec2 place, float metres)
     );
     vec2 from = vec2(before.x, before.y);
     if (isPerspective) {
-        // What was behind the camera comes in from where it was last in front.
+        // A point that was behind the camera starts from where it was last in front.
         vec3 visible = vec3(now.x, now.y, now.z);
         before = pullInFront(before, visible, 1.0e-3f * visible.z);
         from = vec2(before.x, before.y) / before.z;
@@ -58,7 +57,7 @@ SHUTTER_INLINE vec2 motionOfCamera(PrepareTable table, vec2 place, float metres)
     return place - from;
 }
 
-/// A motion that every later sum is finite with; 0 for what is no number.
+/// Clamps a motion so that every later sum is finite; 0 for NaN.
 SHUTTER_INLINE vec2 storableMotion(vec2 motion) {
     float speed = length(motion);
     if (!isFinite(speed))
@@ -88,11 +87,11 @@ preparedMotion(PrepareTable table, vec2 place, vec2 vector, float metres, float 
     return storableMotion(motion * blurScale);
 }
 
-/// The way of what a pixel shows, as packWay() has it: a parabola through its places at shutter open
-/// and close and the pixel itself, or straight where the raster is too near to either end.
+/// The motion of a pixel's surface, packed by packWay(): a parabola through its places at shutter
+/// open and close and the pixel itself, or straight where the raster is too near to either end.
 /// \param ends displacement to shutter open (xy) and close (zw), pixels right and down
 /// \param rasterTime shutter time of the raster, which may lie outside of the exposure
-/// \return kNoWay in x for what is no number
+/// \return kNoWay in x for NaN
 SHUTTER_INLINE uvec2 prepareWay(vec4 ends, float rasterTime) {
     if (!isFinite(ends.x) || !isFinite(ends.y) || !isFinite(ends.z) || !isFinite(ends.w))
         return uvec2(kNoWay, 0u);

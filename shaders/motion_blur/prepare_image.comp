@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Part of a host's image, in any format of floats, as a picture of its own in half floats.
+// Copies part of a host's image, in any float format, to a separate half-float image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

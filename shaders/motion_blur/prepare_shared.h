@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tells a host's motion vectors and depth from the motion blur's own.
+// Conversion of a host's motion vectors and depth to the motion blur's conventions.
 #ifndef SHUTTER_PREPARE_SHARED_H
 #define SHUTTER_PREPARE_SHARED_H
 
@@ -23,8 +23,8 @@ SHUTTER_CONST uint kPrepareHasVectors = 32u;   // the image of vectors counts; e
 SHUTTER_CONST uint kPrepareDepthIsThird = 64u; // depth is the third channel of its image
 
 struct PrepareTable {
-    /// Rows of the affine map from picture space (instant_motion_shared.h) now to that of the frame
-    /// before, for what is static in the world.
+    /// Rows of the affine map from picture space (instant_motion_shared.h) now to that of the
+    /// previous frame, for static surfaces.
     vec4 beforeFromNow[3];
     PrepareArea vectors;
     PrepareArea depth;
@@ -32,7 +32,7 @@ struct PrepareTable {
     vec4 depthFromValue; // metres = (x + y value) / (z + w value)
     vec2 pixelsPerUnit;  // of the vectors: to the picture's, right and down, from before to now
     vec2 jitterPx;       // what the vectors hold of the change of jitter, in the same sense
-    float skyValue;      // of the depth image where nothing is; NaN: no value says so
+    float skyValue;      // background value of the depth image; NaN: there is none
     float cameraScale;   // share of the motion over a frame that is blurred
     float objectScale;   // the same for what objects move by themselves
     uint flags;

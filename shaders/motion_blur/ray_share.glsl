@@ -8,13 +8,14 @@
 
 SHUTTER_SHADER_BEGIN
 
-SHUTTER_CONST uint kTracePixels = 0u; // a ray a masked pixel
-SHUTTER_CONST uint kTraceQuads = 1u;  // a ray a quad with masked pixels
+SHUTTER_CONST uint kTracePixels = 0u; // one ray per masked pixel
+SHUTTER_CONST uint kTraceQuads = 1u;  // one ray per quad with masked pixels
 SHUTTER_CONST uint kTraceNothing = 2u;
 
 SHUTTER_CONST float kQuadShare = 0.25f; // of the rays, where every pixel of the quads is masked
 
-/// How a block traces, so that all blocks together trace `rayShare` of what the mask asks for.
+/// Chooses how a block traces, so that all blocks together trace `rayShare` of the rays that the
+/// mask requests.
 /// \param block counted in blocks
 SHUTTER_INLINE uint chooseTracing(vec2 block, float rayShare) {
     float noise = interleavedGradientNoise(block); // [0, 1)

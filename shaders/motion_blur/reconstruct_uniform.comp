@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Gather where all that taps meet moves by the dominant motion: they read no motion and no depth,
-// and weigh as two that move alike at one depth. What lies in front of what makes no difference then:
-// everything in reach passes the pixel at the same speed.
+// Gather for neighbourhoods that move uniformly by the dominant motion: taps read no motion and no
+// depth, and have the weight of equal motion and depth. Depth order is irrelevant: everything in
+// reach passes the pixel at the same speed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -50,8 +50,8 @@ vec4 gatherUniform(vec2 at, vec2 dominant) {
 
 bool isInside(ivec2 pixel) { return all(lessThan(uvec2(pixel), params.sizePx)); }
 
-/// Along a long smear neighbours differ by little: two pixels take what is seen at the first of them.
-/// Half of the group's threads do all, the others end together.
+/// Along a long smear neighbours differ by little: two pixels share the result of the first. Half
+/// of the group's threads do the work, the others exit together.
 void gatherHalf(uvec2 block, bool alongX) {
     uint i = gl_LocalInvocationIndex;
     if (i >= kGroupSize * kGroupSize / 2u) return;
@@ -70,7 +70,7 @@ void main() {
     if (!findBlock(params.sizePx, block)) return;
     vec2 motion = dominantAt(vec2(block * kGroupSize) + 0.5f);
     vec2 along = abs(motion);
-    // Across the smear the picture keeps its detail: pixels stand side by side along it, or none do.
+    // Detail across the smear is preserved: pairs are adjacent along the smear, or there are none.
     bool straight = min(along.x, along.y) <= 0.25f * max(along.x, along.y);
     if (straight && length(motion) >= method.halfResolutionPx) {
         gatherHalf(block, along.x >= along.y);

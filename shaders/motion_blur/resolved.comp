@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each pixel saw at each instant of the exposure, looked up in this frame's raster and, where
-// that holds nothing of it, in the last frame's.
+// Looks up each pixel's sample at each instant of the exposure, in this frame's raster or else in
+// the last frame's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -60,7 +60,7 @@ float timeOf(InstantMotionsRef motions, uint instant) {
     return InstantTable(motions.value.times).times[instant];
 }
 
-/// How an instant's place of the lens moves what is seen, for lensShift(). There must be a lens.
+/// Displacement by an instant's place of the lens, for lensShift(). There must be a lens.
 vec4 lensOf(InstantMotionsRef motions, uint instant) {
     return LensShiftTable(motions.value.lens).shifts[instant];
 }
@@ -106,7 +106,7 @@ bool isInner(uint corners, vec2 at) {
     return (corners >> corner & 1u) != 0u;
 }
 
-/// Where a pixel of a block looks. \param inBlock from the block's centre, pixels
+/// Sample position of a pixel of a block. \param inBlock from the block's centre, pixels
 vec2 lookFrom(BlockLook look, vec2 inBlock) {
     return look.place + unpackHalf2x16(look.perX) * inBlock.x +
            unpackHalf2x16(look.perY) * inBlock.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where in the picture something is seen at some instants, and which tiles that reaches. Whoever includes
-// this has the push constants `params` and `method`.
+// Screen boxes of a surface at several instants, and the tiles that they overlap. The including
+// shader has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_BOXES_GLSL
 #define SHUTTER_RESOLVED_BOXES_GLSL
 
@@ -16,7 +16,7 @@ struct SeenBox {
 
 const SeenBox kNoBox = SeenBox(vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, 0.0f), 0u);
 
-/// \param low, high with the margin around what is seen
+/// \param low, high including the margin
 void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
     if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, vec2(params.sizePx)))) return;
     box.low = min(box.low, low);

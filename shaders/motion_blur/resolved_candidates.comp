@@ -96,7 +96,7 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
         listExtent(extent);
         extent = beginExtent(layer, key);
         if (extent.deforms) {
-            // What deforms is listed part by part (resolved_parts.comp).
+            // Deforming entities are listed part by part (resolved_parts.comp).
             extent.isOfUse = false;
             sDeforms = true;
         }
@@ -114,7 +114,7 @@ SeenBox findBox(LayerMotion layer, Extent extent, uint sample_, bool perspective
     return box;
 }
 
-/// For the pass that finds the parts of what deforms in the tile.
+/// For the pass that finds the deforming parts in the tile.
 void listDeforming() {
     uint index = atomicAdd(uDeforming.header.count, 1u);
     uDeforming.entries[index] = gl_WorkGroupID.x | gl_WorkGroupID.y << 16;
@@ -161,7 +161,7 @@ void main() {
         if (sKeys[slot] == kNoKey) break;
         uint sample_ = pair - slot * params.sampleCount;
         Extent listed = getListed(slot);
-        // What is in the tile now must be looked at, even if at no instant it is.
+        // Entities in the tile now must be candidates, even if they are there at no instant.
         if (kLayer == kRasterLayer && sample_ == 0u) enter(ownTile, listed.key, listed.depths, 0u);
         SeenBox box = findBox(layer, listed, sample_, perspective);
         if (box.parts != 0u) enterBox(listed.key, box);

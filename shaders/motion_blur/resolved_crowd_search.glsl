@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The search in crowded tiles, which have no list of what they may see. It asks for no entity: from each
-// seed it goes to wherever the layer shows something that is at the pixel at the instant. Part of
-// resolved_search.glsl.
+// The search in crowded tiles, which have no complete list of candidates. It is not bound to an
+// entity: from each seed it converges to any surface of the layer that is at the pixel at the
+// instant. Part of resolved_search.glsl.
 #ifndef SHUTTER_RESOLVED_CROWD_SEARCH_GLSL
 #define SHUTTER_RESOLVED_CROWD_SEARCH_GLSL
 
@@ -61,7 +61,7 @@ void searchFrom(
         }
         if (distancePx > kTolerancePx || !isInside(next)) return;
         if (fetchSurface(index, ivec2(next)).key != surface.key) return;
-        // Among many small entities colours beside edges are interpolated as elsewhere.
+        // Among many small entities, colours next to edges are interpolated as elsewhere.
         float depth = behindSky(surface.key, displaced.depth);
         keepNearer(best, Seen(true, index, surface.key, next, depth, true), pixel.x);
         return;
@@ -100,7 +100,7 @@ Seen searchCrowds(PixelSearch pixel, uint instant) {
     return seen;
 }
 
-/// What stands for a sample of which nothing is known: the tap of `own_velocity`.
+/// Fallback for an unknown sample: the tap of `own_velocity`.
 vec3 fetchOwnTap(PixelSearch pixel, uint instant) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     float time = timeOf(motions, instant) - params.rasterTime;

@@ -66,7 +66,7 @@ vec2 placeAt(LayerMotion layer, Extent extent, uint instant, bool perspective) {
     return clamp(projectPicture(seen, perspective), -1.0e6f, 1.0e6f);
 }
 
-/// Neighbouring cells have slots of their own: of those with the same the nearest two are 4.5 apart.
+/// Neighbouring cells have distinct slots: the nearest two with the same slot are 4.5 apart.
 uint findSlot(vec2 way) {
     float fine = max(length(way) / kFineWayPx, 1.0f);
     float cellPx = kSeedCellPx * exp2(floor(log2(fine)));
@@ -150,7 +150,7 @@ void main() {
         if (key != extent.key) {
             enterExtent(layer, first, extent, unlisted, perspective);
             extent = beginExtent(layer, key);
-            // Vectors say how what deforms moves, and other rasters have none.
+            // The motion of deforming entities is in motion vectors, which other rasters lack.
             if (extent.deforms && index != kRasterLayer) extent.isOfUse = false;
         }
         growExtent(surface, pixel, extent);

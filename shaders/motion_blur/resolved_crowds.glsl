@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of crowded tiles (TileCrowd). Whoever includes this has the push constants `params` and
+// Data of crowded tiles (TileCrowd). The including shader has the push constants `params` and
 // `method`.
 #ifndef SHUTTER_RESOLVED_CROWDS_GLSL
 #define SHUTTER_RESOLVED_CROWDS_GLSL

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Enters what is seen at some instants in the lists of the tiles that it is seen in. Whoever includes
-// this has the push constants `params` and `method`.
+// Enters candidates into the lists of the tiles in which they are visible at some instants. The
+// including shader has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_ENTER_GLSL
 #define SHUTTER_RESOLVED_ENTER_GLSL
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Pixels of one entity in a layer, and where they are seen in the course of the exposure. Whoever
-// includes this has the push constants `params` and `method`.
+// Pixels of one entity in a layer, and their screen extent over the exposure. The including shader
+// has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_EXTENTS_GLSL
 #define SHUTTER_RESOLVED_EXTENTS_GLSL
 
 #include "motion_blur/resolved_boxes.glsl"
 
-/// Beyond the box: half a pixel to its border, one for what is interpolated, and some for rounding.
+/// Beyond the box: half a pixel to its border, one for interpolation, and some for rounding.
 const float kMarginPx = 2.0f;
 
 /// Pixels of one entity.
@@ -17,7 +17,7 @@ struct Extent {
     vec2 depths;
     ivec2 low;
     ivec2 high;
-    vec2 motionLow; // of what deforms: bounds of its motion vectors
+    vec2 motionLow; // of deforming entities: bounds of their motion vectors
     vec2 motionHigh;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The colour of a sample that no layer holds, because this frame's raster shows something nearer there.
-// Whoever includes this has the push constants `params` and `method`.
+// The colour of a sample that no layer holds, because this frame's raster shows something nearer
+// there. The including shader has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_HIDDEN_GLSL
 #define SHUTTER_RESOLVED_HIDDEN_GLSL
 
@@ -11,14 +11,14 @@ const uint kWalkSteps = 32u;
 /// In place of a key: whatever is static before a static camera, which is no candidate.
 const uint kStaticKey = kNoKey;
 
-/// The color that stands for a hidden surface's.
+/// The substitute for a hidden surface's color.
 struct Substitute {
     float distancePx; // from the hidden place to the nearest pixel of the surface; kFarthest: none
     vec3 color;
 };
 
-/// Where the raster shows the part of a surface that the pixel would see at the instant, going by what
-/// it shows of that surface at `at`. The pixel does not see the surface then: it ends on the way there.
+/// Place in the raster of the point of a surface that the pixel would see at the instant,
+/// extrapolated from the surface at `at`. The surface ends before it.
 vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
     uint mover = findMover(pixel.raster, hiding.key);
     if (mover == kNoMover || isStillMover(pixel.raster, mover)) return pixel.x;
@@ -69,8 +69,8 @@ void walkTo(
     }
 }
 
-/// Walks to where what hides the surface ends. With a lens the surface may be seen at the pixel, too, and
-/// be hidden only to the instant's place of it: it counts what lies nearer.
+/// Walks to the end of the occluder. With a lens, the surface may be visible at the pixel and
+/// hidden only from the instant's place of the lens: nearer surfaces count as occluders.
 void walkToSeen(
     PixelSearch pixel, uint instant, uint key, vec2 from, Probe hiding, inout Substitute best
 ) {
@@ -103,9 +103,9 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
     if (isHidden) walkToSeen(pixel, instant, candidate.key, at, surface, best);
 }
 
-/// Looks for a color that stands for what the pixel saw at an instant where no layer holds it: of the
-/// surfaces that this frame's raster hides there, the one that comes out from behind what hides it
-/// nearest to there. Crowded tiles have no list of them.
+/// Finds a substitute color for a sample that no layer holds: of the surfaces hidden there in this
+/// frame's raster, the one that emerges from behind its occluder at the nearest place. Crowded
+/// tiles have no list of such surfaces.
 Substitute findSubstitute(PixelSearch pixel, uint instant) {
     if (kHasCrowds && pixel.isCrowded) return Substitute(0.0f, fetchOwnTap(pixel, instant));
     Substitute best = Substitute(kFarthest, vec3(0.0f));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the layers of `resolved` hold: surfaces, colours, and the candidates of each tile. Whoever
-// includes this has the push constants `params` and `method`.
+// Layers of `resolved`: surfaces, colours, and the candidates of each tile. The including shader
+// has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_LAYERS_GLSL
 #define SHUTTER_RESOLVED_LAYERS_GLSL
 
@@ -33,7 +33,7 @@ layout(binding = 15) uniform sampler2D uSecondColorLinear;
 layout(binding = 16, scalar) readonly buffer RasterParts { TilePart uRasterParts[]; };
 layout(binding = 17, scalar) readonly buffer LastParts { TilePart uLastParts[]; };
 layout(binding = 18, scalar) readonly buffer SecondParts { TilePart uSecondParts[]; };
-// Where what deforms goes (common/pixel_way.glsl); with kHasWays.
+// Motion of deforming entities (common/pixel_way.glsl); with kHasWays.
 layout(binding = 19) uniform usampler2D uWays;
 layout(binding = 20) uniform usampler2D uLastWays;
 layout(binding = 21) uniform usampler2D uSecondWays;
@@ -123,8 +123,8 @@ bool isInside(vec2 at) {
     return all(greaterThanEqual(at, vec2(0.0f))) && all(lessThan(at, vec2(params.sizePx)));
 }
 
-/// With a lens the picture goes on as it ends: a blur that comes from beyond is as near as the border
-/// to what it shows.
+/// With a lens the picture is extended by its border pixels: they are the best estimate of blur
+/// from beyond the border.
 vec2 withinBorder(uint layer, vec2 at) {
     if (!kHasLens || layer != kRasterLayer) return at;
     return clamp(at, vec2(0.5f), vec2(params.sizePx) - 0.5f);
@@ -172,9 +172,9 @@ bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
     return equal(keys & kKeyBits, uvec4(key));
 }
 
-/// Bilinear among the pixels of the entity. What is linear in the picture of a plane is its depth
-/// before an orthographic camera, the inverse before a perspective one.
-/// \param nearest depth at the place's pixel, which may have it of another surface than its own
+/// Bilinear among the pixels of the entity. Across a plane in the picture, depth is linear for an
+/// orthographic camera, and inverse depth for a perspective one.
+/// \param nearest depth at the place's pixel, which may be of another surface
 float interpolateDepth(uint layer, uint key, vec2 at, float nearest, bool perspective) {
     Footprint footprint = footprintOf(at);
     vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, footprint));

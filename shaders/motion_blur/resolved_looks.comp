@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the pixels of a block look at, found for all of them together. Where all that they may see at an
-// instant is one plane of this frame's raster, where they look is an affine map, and nothing is searched.
-// At other instants the candidates are left out that this frame's raster does not show where the block
+// Finds the samples of a block's pixels for all of them together. If they can see only one plane of
+// this frame's raster at an instant, sample positions are an affine map and no search is needed. At
+// other instants, candidates are dropped that this frame's raster does not show where the block
 // would see them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -43,20 +43,20 @@ layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 #include "motion_blur/resolved_crowds.glsl"
 
-/// Beyond the places that are looked at: what a linear fetch reads.
+/// Margin around sample positions for linear filtering.
 const float kFetchMarginPx = 1.0f;
-/// Most blocks of the raster, across and down, that a block may look at.
+/// Maximum number of blocks of the raster, across and down, that a block may sample.
 const int kMostBlocksAcross = 4;
 const float kFarAway = 1.0e4f;
 const uint kLeastInstants = 6u;
-/// Way from one instant to the next from which pixels have instants of their own, and how much more it
-/// takes until these spread over all of it, pixels. Copies of an edge that lie closer are not seen, and
-/// noise would only be an error. Above 1/2, or blocks with noise would take fewer instants than there
-/// are.
+/// Motion per instant, in pixels, from which pixels have individual instants, and the further
+/// motion until these are spread over the whole interval. Copies of an edge that lie closer are not
+/// visible, and noise would only be an error. Above 1/2, or blocks with noise would take fewer
+/// instants than there are.
 const float kNoiseFromPx = 2.0f;
 const float kNoiseRampPx = 2.0f;
 // With a lens.
-/// Distance between samples from which pixels have sets of their own, which a filter then averages.
+/// Distance between samples from which pixels have individual sets, which a filter then averages.
 const float kLensNoiseFromPx = 1.0f;
 /// Reach within which what a block sees counts as in focus and still, pixels.
 const float kStillReachPx = 0.125f;
@@ -97,7 +97,7 @@ Shared findShared(uint tile, uint slots, bool perspective) {
     return seen;
 }
 
-/// Bounds of the places that a block may look at.
+/// Bounds of a block's sample positions.
 struct Reach {
     bool isInFront; // of the camera, all of it
     vec2 low;
@@ -135,7 +135,7 @@ BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x)
 
 vec2 centreOf(ivec2 block) { return (vec2(block) + 0.5f) * float(kGroupSize); }
 
-/// \return where the block looks at the instant; isAffine: all that it may see is one plane
+/// \return the block's sample positions at the instant; isAffine: it can see only one plane
 PlaneMap lookAt(
     ivec2 block, uint mover, vec2 alongs, InstantMotion motion, uint instant, bool perspective
 ) {
@@ -175,7 +175,8 @@ PlaneMap lookAt(
 /// keys of blocks say
 bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspective) {
     uint bit = keyBit(candidate.key);
-    // What hides the rest now is looked for wherever it goes: what lies beside it comes into sight.
+    // The present occluder of the rest is searched at every instant: surfaces next to it become
+    // visible.
     if ((getPlane(block).keys & bit) != 0u) return true;
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
     Reach reach = findReach(
@@ -225,8 +226,8 @@ Candidate getCandidate(uint layer, uint tile, uint slot) {
     return uRaster[tile].candidates[slot];
 }
 
-/// How far the block looks along the layer's picture in the course of the exposure, by the candidate whose
-/// picture moves most: at a middle depth, at a few instants. Pixels.
+/// Motion of the block's sample positions in the layer over the exposure, by the fastest candidate:
+/// at a middle depth, at a few instants. Pixels.
 /// \param lane whose share of the candidates counts
 float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane) {
     LayerMotion layer = getLayer(InstantMotionsRef(method.motions), index);
@@ -253,14 +254,14 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane
     return longest;
 }
 
-/// How far apart a lens and motion let a block look at one thing.
+/// Spread of a block's samples of one surface by lens and motion.
 struct Spread {
     float way;     // as long as a way along which the samples would lie as close, pixels
     float reach;   // farthest from the block itself, pixels
     float leastPx; // least diameter of a circle of confusion
 };
 
-/// What the looks of one block share.
+/// Data shared by the lookups of one block.
 struct BlockSearch {
     ivec2 block;
     uint tile;
@@ -270,8 +271,8 @@ struct BlockSearch {
     LayerMotion layer;
 };
 
-/// From a place of the block to where it looks at the middle set's samples: bounds, x and y least and
-/// greatest.
+/// Displacement from a place of the block to the sample positions of the middle set: bounds,
+/// minimum and maximum of x and y.
 vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
     vec4 bounds = vec4(0.0f);
     for (uint i = 0u; i < params.sampleCount; ++i) {
@@ -287,8 +288,8 @@ vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
     return bounds;
 }
 
-/// By the block's centre or, where that sees itself, by three corners, which what turns about the centre
-/// does not leave alone.
+/// For the block's centre or, if that sees itself, for three corners, which also detect rotation
+/// about the centre.
 vec4 boundPlaces(BlockSearch search, uint mover, float along) {
     vec2 centre = centreOf(search.block);
     vec4 bounds = boundPlacesOf(search, mover, along, centre);
@@ -301,7 +302,7 @@ vec4 boundPlaces(BlockSearch search, uint mover, float along) {
     return bounds;
 }
 
-/// Least diameter of the circles of confusion of what lies between the candidate's depths, pixels.
+/// Minimum diameter of the circles of confusion between the candidate's depths, pixels.
 float leastConfusion(Candidate candidate) {
     if (candidate.key == kSkyKey) return confusionAt(InstantMotionsRef(method.motions), kFarAway);
     vec2 confusion = InstantMotionsRef(method.motions).value.confusion;
@@ -334,12 +335,13 @@ Spread measureSpread(BlockSearch search, uint lane) {
     return spread;
 }
 
-/// Finds and keeps the look of one instant. \return where the block looks, if that is a plane
+/// Finds and stores the lookup of one instant. \return the sample positions, if the block sees a
+/// plane
 PlaneMap findLook(BlockSearch search, uint instant) {
     InstantMotionTable table = InstantMotionTable(search.layer.motions);
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
     Shared seen = findShared(search.tile, slots, search.perspective);
-    // What is static is no candidate: it may hide some of what moves.
+    // Static surfaces are not candidates: they may hide parts of movers.
     if (search.layer.isStill != 0u && getPlane(search.block).mover != seen.mover)
         seen.mover = kNoMover;
     PlaneMap map;
@@ -373,7 +375,7 @@ struct Found {
     float leastPx;  // Spread::leastPx
 };
 
-/// \param way how far the block looks in the course of the exposure, pixels
+/// \param way motion of the block's sample positions over the exposure, pixels
 void chooseInstants(float way, inout Found found) {
     // About one for each pixel of the way, if that is few enough to leave some out evenly.
     found.instants = uint(min(way, kFarAway)) + kLeastInstants;
@@ -396,7 +398,7 @@ void chooseSets(Spread spread, inout Found found) {
     found.leastPx = spread.leastPx;
 }
 
-/// How far the block looks, by all layers.
+/// Motion of the block's sample positions, over all layers.
 float measureWays(BlockSearch search, uint lane) {
     float way = measureWay(kRasterLayer, search.block, search.tile, search.perspective, lane);
     if (has(method, kHasLastLayer))
@@ -408,9 +410,9 @@ float measureWays(BlockSearch search, uint lane) {
     return way;
 }
 
-/// Where a block looks in the course of the exposure.
+/// Sample positions of a block over the exposure.
 struct Course {
-    uint planes; // instants at which it looks at one
+    uint planes; // instants at which it sees one
     vec2 last;   // place
     float way;   // pixels
 };
@@ -430,8 +432,8 @@ shared uint sIsMixed[kMostBlocks];
 shared uint sReach[kMostBlocks];   // bits of Spread::reach
 shared uint sLeast[kMostBlocks];   // bits of Spread::leastPx
 
-/// Where pixels take sets of their own: finds the looks of the others than the middle one, too. All lanes
-/// of a group call it.
+/// If pixels take individual sets: finds the lookups of the sets other than the middle one, too.
+/// All lanes of a group call it.
 Found withOwnSets(BlockSearch search, Found found, uint block, uint lane, bool isWanted) {
     uint middle = middleSet(method);
     if (isWanted && found.noise != 0.0f)
@@ -459,7 +461,7 @@ Spread shareSpread(Spread own, uint block) {
     );
 }
 
-/// Finds the look of each instant that the block's pixels may take. All lanes of a group call it.
+/// Finds the lookup of each instant that the block's pixels may take. All lanes of a group call it.
 /// \param isWanted false: there is no such block
 Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     if (kLanes > 1u) {
@@ -476,7 +478,7 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     if (kHasLens) {
         if (isWanted) spread = measureSpread(search, lane);
         spread = shareSpread(spread, block);
-        // An edge is only smooth where it is searched; of other still blocks nothing is asked for.
+        // An edge is only smooth where it is searched; other static blocks need nothing.
         if (isWanted && hasEdges(search)) spread.reach = max(spread.reach, 2.0f * kStillReachPx);
         if (spread.reach <= kStillReachPx) isWanted = false;
     }

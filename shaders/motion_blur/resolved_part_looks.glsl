@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks of a block into this frame's raster where what deforms is concerned. Part of
-// resolved_looks.comp.
+// Lookups of a block in this frame's raster for deforming entities. Part of resolved_looks.comp.
 #ifndef SHUTTER_RESOLVED_PART_LOOKS_GLSL
 #define SHUTTER_RESOLVED_PART_LOOKS_GLSL
 
@@ -15,9 +14,8 @@ bool isPartShown(ivec2 block, uint key, uint instant) {
            all(lessThan(centreOf(block), bounds.zw + kReachPx));
 }
 
-/// Where a block looks if it sees nothing but the part; isAffine: that is known to
-/// `uniformMotionPx`.
-/// \param off how far off it may be, pixels
+/// Sample positions of a block that sees only the part; isAffine: exact to `uniformMotionPx`.
+/// \param off maximum error, pixels
 PlaneMap mapPart(TilePart part, float s, ivec2 block, out float off) {
     PartWay way = wayAt(part, s);
     PartBack back = invertWay(part, way);
@@ -42,7 +40,7 @@ bool showsKey(ivec2 block, uint key) {
     return plane.mover == kDeformedMover && plane.along == float(key);
 }
 
-/// \return whether all that the block looks at is of the entity
+/// \return whether all sampled pixels belong to the entity
 bool isWithin(PlaneMap map, float off, uint key) {
     vec2 reach = kHalfBlockPx * (abs(map.perX) + abs(map.perY)) + kFetchMarginPx + off;
     vec2 first = map.place - reach;
@@ -74,8 +72,8 @@ bool movesAs(PlaneMap map, uint tile, uint key, float s, ivec2 block) {
     return isThere;
 }
 
-/// \return whether so does what the block looks at: parts that no pixel of the block sees may be among
-/// it, and hide there what moves as the map. isWithin() came before.
+/// \return whether the sampled pixels move as the map: among them may be parts that no pixel of the
+/// block sees, and that hide others which do. Call isWithin() first.
 bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
     vec2 reach = kHalfBlockPx * (abs(map.perX) + abs(map.perY)) + kFetchMarginPx + off;
     uvec2 low = uvec2(map.place - reach) / kCandidateTilePx;
@@ -87,7 +85,7 @@ bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
     return true;
 }
 
-/// Where a block looks that sees nothing but parts of one entity, which move there as one.
+/// Sample positions of a block that sees only parts of one entity, which move alike there.
 /// \param shown the candidates that the block may see
 PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool standsStill) {
     PlaneMap map;

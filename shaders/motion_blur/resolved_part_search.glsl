@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The search for what a pixel saw of a part of what deforms (resolved_parts_shared.h). Its fit says
-// where to begin; the pixels' own ways decide. Part of resolved_search.glsl.
+// Searches the sample of a pixel on a deforming part (resolved_parts_shared.h). The part's fit
+// gives the first guess; per-pixel motion decides. Part of resolved_search.glsl.
 #ifndef SHUTTER_RESOLVED_PART_SEARCH_GLSL
 #define SHUTTER_RESOLVED_PART_SEARCH_GLSL
 
 /// Deviation from which a part may be seen at several places at once, pixels.
 const float kWideDeviationPx = 1.0f;
-/// Farthest from where the fit has it that a part is looked for, pixels.
+/// Maximum distance from the fit's estimate within which a part is searched, pixels.
 const float kMostDeviationReachPx = 8.0f;
 
 /// Newton's steps from one place: the fit leads to within a pixel or so, and more gain nothing.
@@ -73,7 +73,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
     }
 }
 
-/// Looks for what the pixel sees of a part.
+/// Searches the pixel's sample on a part.
 /// \param candidate with a part
 void searchPart(
     uint layer, Candidate candidate, uint instant, vec2 x, inout Seen found, inout Doubt doubt
@@ -98,9 +98,9 @@ void searchPart(
         return;
     PartSearch search = PartSearch(layer, keyOfPart(part), s, lens, x, back.back);
     bool isWide = way.deviation > kWideDeviationPx;
-    // From the place itself and, if the part may be seen at several places, from the nearest one in it:
-    // the nearer of what is found hides the other, a leg before the other. One loop, since compilers
-    // write out every call.
+    // From the place itself and, if the part may be seen at several places, from the nearest one in
+    // it: the nearer hit hides the other, as with one leg in front of the other. One loop, since
+    // compilers inline every call.
     uint count = isWide ? 2u : 1u;
     [[dont_unroll]] for (uint i = 0u; i < count; ++i) {
         vec2 from = i == 0u ? at : clamp(at, box.xy + 0.5f, box.zw - 0.5f);

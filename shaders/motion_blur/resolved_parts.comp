@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the parts of what deforms (resolved_parts_shared.h) in a tile of a layer, and enters them in
-// the lists of the tiles that may see them. A group takes a tile, one entity after the other.
+// Finds the deforming parts (resolved_parts_shared.h) in a tile of a layer, and enters them in the
+// lists of the tiles that may see them. A group takes a tile, one entity after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -37,7 +37,7 @@ const uint kComponents = 6u;
 const uint kSums = kPlaceSums + 3u * kComponents;
 /// Deviation from which an entity is cut in two, pixels.
 const float kMostDeviationPx = 1.0f;
-/// What a half holds, and what it takes to round it up.
+/// Largest half used, and the increment that rounds up.
 const float kMostHalf = 60000.0f;
 const float kUp = 1.001f;
 /// Greatest change of a part's ways per pixel.
@@ -211,7 +211,7 @@ vec2 fitChange(Spread spread, uint component) {
     float determinant = spread.xx * spread.yy - spread.xy * spread.xy;
     vec2 change =
         vec2(by.x * spread.yy - by.y * spread.xy, by.y * spread.xx - by.x * spread.xy) / determinant;
-    // A steeper fit leads nowhere: the deviation holds what it leaves.
+    // A steeper fit is useless: the deviation covers the remainder.
     return clamp(change, -kSteepestChange, kSteepestChange);
 }
 
@@ -379,7 +379,7 @@ void main() {
     barrier();
     for (uint i = gl_LocalInvocationIndex; i < count; i += kThreads) {
         uParts[first + i] = sParts[i];
-        // What is in the tile now must be looked at, even if at no instant it is.
+        // Parts in the tile now must be candidates, even if they are there at no instant.
         if (kLayer == kRasterLayer) enter(tileIndex, kPartBit | (first + i), sPartDepths[i], 0u);
     }
     for (uint i = gl_LocalInvocationIndex; i < count * params.sampleCount; i += kThreads) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a part of what deforms is at an instant, as far as its fit says.
+// Place of a deforming part at an instant, by its fit.
 #ifndef SHUTTER_RESOLVED_PARTS_GLSL
 #define SHUTTER_RESOLVED_PARTS_GLSL
 

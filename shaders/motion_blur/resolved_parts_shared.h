@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parts of what deforms: what one tile of a layer shows of one entity, all of it or one of two
-// halves that move differently. A part's ways (common/pixel_way.glsl) are fitted by affine maps,
-// which say where to look for the part; where a sample is found is up to the pixels' own ways.
+// Deforming parts: the pixels of one entity in one tile of a layer, all of them or one of two
+// halves that move differently. A part's per-pixel motion (common/pixel_way.glsl) is fitted by
+// affine maps, which give first guesses; per-pixel motion then determines the sample.
 #ifndef SHUTTER_RESOLVED_PARTS_SHARED_H
 #define SHUTTER_RESOLVED_PARTS_SHARED_H
 

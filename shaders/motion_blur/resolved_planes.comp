@@ -37,14 +37,14 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
     bool hasOne = true;
     uint runs = 0u; // of pixels of one entity
     for (int y = 0; y < size.y; ++y) {
-        // All of a row is on its way before one is looked at.
+        // Fetches a whole row before testing it, so that the fetches overlap.
         uint keys[kGroupSize];
         for (int x = 0; x < int(kGroupSize); ++x) {
             uvec2 surface = fetchSurface(first + ivec2(min(x, size.x - 1), y));
             keys[x] = keyOf(surface);
             if (otherSamplesOf(surface) == 0u) continue;
             hasOne = false;
-            plane.keys = ~0u; // of which entity the others are is not looked up
+            plane.keys = ~0u; // the entities of the other pixels are not stored
         }
         for (int x = 0; x < int(kGroupSize); ++x) {
             uint key = keys[x];

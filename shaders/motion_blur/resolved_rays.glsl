@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of a listed pixel's samples rays replace, and what is known of the others. Whoever includes
-// this has the push constants `params` and `method`, and the constant `kFindsEdges`.
+// Selects which of a listed pixel's samples rays replace, and evaluates the others. The including
+// shader has the push constants `params` and `method`, and the constant `kFindsEdges`.
 #ifndef SHUTTER_RESOLVED_RAYS_GLSL
 #define SHUTTER_RESOLVED_RAYS_GLSL
 
@@ -31,19 +31,19 @@ vec2 placeOfRay(PixelSearch search, uint index) {
     return kHasEdges ? placeInPixel(search, index) : search.centre;
 }
 
-/// What is known of a pixel's samples.
+/// Statistics of a pixel's samples.
 struct Mean {
     vec3 sum;
     uint known;
     float confusionPx; // the least of those known
 };
 
-/// A sample as it was looked up.
+/// A looked-up sample.
 struct LookedUp {
     bool isKnown;
     bool isTraced; // a ray shall replace it
     vec3 color;
-    float confusionPx; // with kHasLens, of what was found; kFarthest: nothing
+    float confusionPx; // with kHasLens, of the surface found; kFarthest: none
 };
 
 LookedUp lookUpAgain(

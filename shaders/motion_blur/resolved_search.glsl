@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search for what a pixel saw at an instant: which surface of which layer. Whoever includes this
+// Searches the sample of a pixel at an instant: which surface of which layer. The including shader
 // has the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_SEARCH_GLSL
 #define SHUTTER_RESOLVED_SEARCH_GLSL
@@ -29,9 +29,9 @@ const float kSeedDistancePx = 4.0f;
 /// Ways shorter than this are searched from their middle alone.
 const float kSeedlessWayPx = 2.0f;
 
-/// What a search knows besides what it found.
+/// Uncertainty of a search result.
 struct Doubt {
-    // Edges run through the pixel, or colours are interpolated: bounds of the colours beside.
+    // Edges run through the pixel, or colours are interpolated: bounds of the neighbouring colours.
     bool hasEdge;
     vec3 leastAcross;
     vec3 greatestAcross;
@@ -45,8 +45,8 @@ float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : dep
 /// \param x the pixel that sees them
 bool isNearer(Seen a, Seen b, vec2 x) {
     if (a.depth != b.depth) return a.depth < b.depth;
-    // Coplanar: what has moved is in sight over what is static. It goes by places alone, so that the
-    // rows of entities make no difference.
+    // Coplanar: a mover is drawn over a static surface. Only places are compared, so that entity
+    // rows make no difference.
     float wayA = distance(a.at, x);
     float wayB = distance(b.at, x);
     if (wayA != wayB) return wayA > wayB;
@@ -63,7 +63,7 @@ void addEdge(vec3 color, inout Doubt doubt) {
     doubt.greatestAcross = max(doubt.greatestAcross, color);
 }
 
-/// The entity is not where the search ended; notes where it is if it is right beside.
+/// The entity is not where the search ended; records its place if that is adjacent.
 void noteMiss(uint layer, uint key, vec2 at, inout Doubt doubt) {
     if (!kFindsEdges) return;
     Footprint footprint = footprintOf(at);
@@ -72,7 +72,7 @@ void noteMiss(uint layer, uint key, vec2 at, inout Doubt doubt) {
         if (matches[i]) addEdge(fetchColor(layer, texelOf(footprint, i)), doubt);
 }
 
-/// Another entity within the footprint of what was found, or other colours of the same one.
+/// Records another entity within the footprint of the sample, or other colours of the same one.
 void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     if (fract(seen.at) == vec2(0.5f)) return;
     Footprint footprint = footprintOf(seen.at);
@@ -97,7 +97,7 @@ struct Guesses {
     Guess last;
 };
 
-/// Looks for what the pixel sees of an entity, from one place on the ray.
+/// Searches the pixel's sample on an entity, from one place on the ray.
 /// \param guess where on the ray to begin; where it was found
 /// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
 /// depth matters
@@ -144,7 +144,7 @@ bool searchRigid(
 
 const uint kFound = 0u;   // the search is over
 const uint kMissed = 1u;  // the entity is not at the first place
-const uint kUnclear = 2u; // it is there, but it takes more to say what is seen
+const uint kUnclear = 2u; // it is there, but the sample needs a full search
 
 /// Accepts the first guess where it is right and no other entity is near, as for most samples.
 /// \return kFound, kMissed or kUnclear
@@ -183,7 +183,7 @@ float alongAt(Candidate candidate, float share, bool perspective) {
     return mix(alongOf(nearest, perspective), alongOf(farthest, perspective), share);
 }
 
-/// Looks for the place in the layer of what the pixel sees of an entity.
+/// Searches the place in the layer of the pixel's sample on an entity.
 /// \param guess where it was found at the instant before, if it was this entity; where it is now
 void searchDepths(
     uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x,
@@ -227,19 +227,20 @@ void searchDepths(
 struct PixelSearch {
     vec2 x;        // the place that is searched from
     vec2 centre;   // of the pixel
-    bool isAtEdge; // an edge was near at the instant before: the next has a place of its own
+    bool isAtEdge; // an edge was near at the previous instant: the next one uses an individual
+                   // place
     uint tile;
     bool perspective;
     uint looks;  // index of the first BlockLook of its block
     uint set;    // of instants
     bool hasOwnSet; // pixels of its block take turns in all sets
     vec2 inBlock; // from the block's centre
-    bool isCrowded; // its tile is: what it may see is in no list
+    bool isCrowded; // its tile is crowded: candidates are not listed
     uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
     LayerMotion second;
     LayerMotion last;
-    Seen still; // what is static there, at all instants
+    Seen still; // the static surface there, at all instants
     Seen secondStill;
     Seen lastStill;
 };
@@ -278,7 +279,7 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
 
 #include "motion_blur/resolved_crowd_search.glsl"
 
-/// \param slots a bit for each candidate of the tile that is looked for
+/// \param slots a bit for each candidate of the tile to search
 void searchLayer(
     uint index, LayerMotion layer, PixelSearch pixel, uint instant, uint slots, inout Guess guess,
     inout Seen best, inout Doubt doubt
@@ -287,7 +288,7 @@ void searchLayer(
     while (slots != 0u) {
         Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
         slots &= slots - 1u;
-        // The rest lies behind what was found. It counts all the same where edges do.
+        // The remaining candidates lie behind the sample. They are still needed for edges.
         if (!kFindsEdges && best.isFound &&
             (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
             break;
@@ -307,7 +308,7 @@ void searchLayer(
     }
 }
 
-/// What is static at the pixel itself in the layer.
+/// The static surface at the pixel itself in the layer.
 Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
     Probe surface = fetchSurface(index, pixel);
     return Seen(
@@ -356,7 +357,7 @@ vec2 placeInPixel(PixelSearch pixel, uint index) {
     return pixel.centre + fract(0.5f + float(index) * vec2(0.7548776662f, 0.5698402910f)) - 0.5f;
 }
 
-/// What is known before the first instant.
+/// State before the first instant.
 Guesses beginGuesses(PixelSearch pixel) {
     return Guesses(
         Guess(pixel.still.key, alongOf(depthOfKey(pixel.still.key, pixel.still.depth), pixel.perspective)),

@@ -18,7 +18,7 @@ SHUTTER_CONST uint kSkyKey = 0xFFFFFFu;
 SHUTTER_CONST uint kUnknownKey = kSkyKey - 1u;
 SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
 
-/// Parts of the exposure that a tile's candidates are told apart by.
+/// Parts of the exposure by which a tile's candidates are separated.
 SHUTTER_CONST uint kExposureParts = 32u;
 
 /// An entity, or a part of one that deforms, that a tile may see during the exposure. Every field
@@ -47,11 +47,12 @@ SHUTTER_CONST uint kTileIsListed = 1u; // 0: the tile is crowded, and its lists 
 /// none.
 SHUTTER_CONST uint kSourceIsListed = 2u;
 
-/// What is known of a tile and layer in a frame whose lists may not hold all. Every field has all
-/// bits set to begin with, and only loses some: nothing depends on the order of threads.
+/// Data of a tile and layer in a frame whose lists may overflow. Every field starts with all bits
+/// set, and bits are only cleared: the result does not depend on the order of threads.
 struct TileCrowd {
     uint listed;      // of the raster's layer, for all layers
-    uint wayInverted; // inverted bits of the longest way of what comes over the tile, pixels
+    uint wayInverted; // inverted bits of the longest motion of surfaces that pass over the tile,
+                      // pixels
     /// x | y << 16 of the first pixel of the layer's raster that moves that way; kNoSeed: none
     /// does.
     uint seeds[kCrowdSeeds];
@@ -68,14 +69,14 @@ struct BlockPlane {
     float deviation; // greatest, of a pixel from the plane
 };
 
-/// Most instants for which what a block looks at is found for all its pixels together.
+/// Maximum number of instants with lookups per block.
 SHUTTER_CONST uint kMostLooks = 32u;
 
-/// Before the looks of a block stands one whose perX is how many instants its pixels take, and perY
-/// the bits of a float: how much of InstantNoise they take them with, [0, 1]. With a lens place.x
-/// is the least diameter that it spreads anything over that the block may see, pixels.
+/// The first entry of a block is a header: perX is the number of instants that its pixels take,
+/// perY the bits of a float, their share of InstantNoise, [0, 1]. With a lens place.x is the
+/// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
-/// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
+/// A block's lookup in this frame's raster at an instant: a plane (PlaneMap), or candidates.
 struct BlockLook {
     vec2 place; // of the block's centre, pixels
     uint perX;  // two halves; kSearchedLook: candidates are searched
@@ -107,8 +108,8 @@ SHUTTER_CONST uint kNoiseSidePx = 64u;
 // Bits of ResolvedParams::has.
 SHUTTER_CONST uint kHasLastLayer = 1u;   // the last frame's raster
 SHUTTER_CONST uint kHasSecondLayer = 2u; // the raster of the exposure's other end
-/// Images of where what deforms goes (common/pixel_way.glsl), for all layers. Without, motion
-/// vectors say it, for this frame's raster alone.
+/// Motion images of deforming entities (common/pixel_way.glsl), for all layers. Without them,
+/// motion vectors are used, for this frame's raster alone.
 SHUTTER_CONST uint kHasWays = 4u;
 /// Each instant has a place of the lens: InstantMotions::lens.
 SHUTTER_CONST uint kHasLensPlaces = 8u;

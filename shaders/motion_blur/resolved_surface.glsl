@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The raster's depth and entity id in one image, so that a probe is one fetch, which says too
-// whether other entities are near. Whoever includes this has keepColor().
+// The raster's depth and entity id in one image, so that a probe is one fetch, which also flags
+// whether other entities are near. The including shader defines keepColor().
 #ifndef SHUTTER_RESOLVED_SURFACE_GLSL
 #define SHUTTER_RESOLVED_SURFACE_GLSL
 
 #include "motion_blur/resolved.glsl"
 
-/// Whether pixels with motion vectors of 0 get no corners. No sample is looked up in them as a rule; one
-/// that is all the same takes the way for edges, which is longer.
+/// Whether pixels with motion vectors of 0 get no corners. Usually no sample is looked up in them;
+/// if one is, it takes the slower path for edges.
 layout(constant_id = 0) const bool kSkipsStill = false;
 layout(constant_id = 1) const bool kHasEdges = false; // pixels may show two surfaces
 

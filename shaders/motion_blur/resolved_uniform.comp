@@ -21,7 +21,7 @@ layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1, rgba16f) uniform writeonly image2D uBlurred;
 layout(binding = 2, scalar) readonly buffer Looks { BlockLook uLooks[]; };
 
-/// Pixels of a block, in one column, that a thread takes: they share what is loaded.
+/// Pixels of a block, in one column, per thread: they share loaded data.
 const uint kRows = kGroupSize / kThreadRows;
 
 /// What all pixels of the column see at the same instants.

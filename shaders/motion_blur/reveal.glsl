@@ -21,8 +21,8 @@ Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
     return Revealed(shaded.color, vec4(motion, depth, 0.0f), rayHit.id.entity);
 }
 
-/// What comes into sight at a masked pixel.
-/// \param rays that it takes
+/// The background revealed at a masked pixel.
+/// \param rays number of rays traced
 Revealed traceReveal(ivec2 pixel, out uint rays) {
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
@@ -64,7 +64,8 @@ Revealed traceReveal(ivec2 pixel, out uint rays) {
             t = 1.0e30f;
             break;
         }
-        if (!hasEntityRow(frame, hit.id.entity)) return keepRaster(uv); // nor what lies behind it
+        // nor is its background known
+        if (!hasEntityRow(frame, hit.id.entity)) return keepRaster(uv);
         t = start + hit.t;
         error = rayHitError(t);
         leftId = hit.id.entity;

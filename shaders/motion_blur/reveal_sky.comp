@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reveal where nothing but a sky of one colour lies behind what moves: no ray has to find that.
+// The reveal if only a sky of one colour lies behind movers: it needs no rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "motion_blur/revealed_pixels.glsl"

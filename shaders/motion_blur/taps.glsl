@@ -26,9 +26,9 @@ SHUTTER_INLINE float innerTapPosition(uint index, float jitter, uint count, floa
     return (float(index) + 1.0f + jitter) / float(count + 1u) + rasterTime - 1.0f;
 }
 
-/// A tap of the two above, which fill the exposure evenly, where the shutter's response has it: there
-/// taps count alike. What a pixel sees of a surface that moves at constant speed is then weighed as
-/// the response says; how far a smear reaches and how a publication weighs its taps stays as it is.
+/// Warps a tap of the two above, which fill the exposure evenly, by the shutter's response, so that
+/// all taps have equal weight. A surface at constant speed is then weighted by the response; the
+/// reach of a smear and a publication's tap weights do not change.
 SHUTTER_INLINE float warpTap(ResponseRef response, float u, float rasterTime) {
     return rasterTime - inverseResponse(response, rasterTime - u);
 }
@@ -64,9 +64,10 @@ SHUTTER_INLINE float smearReach(vec2 offset, vec2 motion, float rasterTime) {
     return length(motion) * reachShare(offset, motion, rasterTime);
 }
 
-/// Displacement of the tile look-up that hides the borders of tiles as noise: along one axis, never
-/// into a diagonal tile (Guertin 2014; Jimenez 2014). A quarter of a tile to each side
-/// makes the other tile as likely as the own one at a border, less likely in proportion away from it.
+/// Displacement of the tile lookup that hides the borders of tiles as noise: along one axis, never
+/// into a diagonal tile (Guertin 2014; Jimenez 2014). A quarter of a tile to each side makes both
+/// tiles equally likely at a border, and the other one less likely in proportion to the distance
+/// from it.
 /// \param noise [0, 1)
 SHUTTER_INLINE vec2 tileJitter(float noise, float tileSizePx) {
     bool alongX = noise < 0.5f;

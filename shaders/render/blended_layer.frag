@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A blended surface at an instant of the exposure, behind what was drawn of that instant before: nearest
-// first. Alpha of both targets is the transmittance so far.
+// A blended surface at an instant of the exposure, composited under the surfaces already drawn for
+// that instant: nearest first. Alpha of both targets is the transmittance so far.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SHUTTER_UNIFORM_MATERIAL
@@ -26,11 +26,11 @@ layout(binding = 1, scalar) readonly buffer Surfaces {
 layout(location = 0) out vec4 outColor;   // premultiplied
 layout(location = 1) out vec4 outOpacity; // in red
 
-/// \param point picture space of what is tested
+/// \param point picture space of the tested point
 float depthOfRaster(vec3 point) {
     vec2 at = projectPicture(point, draw.isPerspective != 0u);
     ivec2 size = textureSize(uMotionDepth, 0);
-    // Nothing is known of what lies beside the picture.
+    // Surfaces outside of the picture are unknown.
     if (any(lessThan(at, vec2(0.0f))) || any(greaterThanEqual(at, vec2(size)))) return kSkyDepth;
     return texelFetch(uMotionDepth, ivec2(at), 0).z;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Between two instants of the layer: nothing hides what lies behind, and what was summed up stays.
+// Between two instants of the layer: resets the transmittance and preserves the sums.
 #version 460
 
 layout(location = 0) out vec4 outColor;

@@ -6,10 +6,10 @@
 #include "render/shade_hit.glsl"
 #include "render/trace.glsl"
 
-/// `color` of what lies at distance `t` of the ray, as it is seen through the blended surfaces before
-/// it: what raster makes of them when it draws them far to near.
+/// Composites the blended surfaces in front of distance `t` of the ray over `color`, as the raster
+/// does by drawing them far to near.
 /// \param direction unit, from the camera
-/// \param absent entity that is taken to be away, its blended parts too; kNoEntity: none
+/// \param absent entity to ignore, including its blended parts; kNoEntity: none
 vec3 seenThroughBlended(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float t, uint absent,
     vec3 color

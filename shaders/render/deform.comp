@@ -58,7 +58,7 @@ uint findJob(uint group) {
 DeformedVertex morph(DeformedVertex shaped, uint index, uint instant) {
     for (uint target = 0u; target < job.targetCount; ++target) {
         float weight = WeightArray(job.weights).values[instant * job.weightStride + target];
-        if (weight == 0.0f) continue; // 0 times what it would add
+        if (weight == 0.0f) continue; // contributes nothing
         MorphDelta delta = DeltaArray(job.deltas).values[target * job.vertexCount + index];
         shaped = morphVertex(shaped, delta, weight);
     }

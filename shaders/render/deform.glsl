@@ -17,7 +17,7 @@ struct DeformedVertex {
     vec3 tangent;  // likewise
 };
 
-/// 0 for what has no direction: zero, NaN and infinity.
+/// 0 for vectors without a direction: zero, NaN and infinity.
 SHUTTER_INLINE vec3 unitOrZero(vec3 v) {
     // Scaled first: squares of small and large numbers leave single precision.
     float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
@@ -139,8 +139,8 @@ SHUTTER_INLINE DeformedVertex skinVertex(DeformedVertex vertex, MotionKey blende
     return result;
 }
 
-/// Unit directions, and a position that builders of acceleration structures can bear: one that is
-/// not finite is at the origin.
+/// Normalises directions, and makes the position valid for builders of acceleration structures: one
+/// that is not finite becomes the origin.
 SHUTTER_INLINE DeformedVertex finishVertex(DeformedVertex vertex) {
     DeformedVertex result = vertex;
     if (!isFinite(vertex.position.x) || !isFinite(vertex.position.y) || !isFinite(vertex.position.z))

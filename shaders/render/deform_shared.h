@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What deforms meshes: the vertices' joints and morph targets, and the work of one dispatch.
+// Mesh deformation: the vertices' joints and morph targets, and the jobs of one dispatch.
 #ifndef SHUTTER_DEFORM_SHARED_H
 #define SHUTTER_DEFORM_SHARED_H
 
@@ -34,7 +34,7 @@ SHUTTER_CONST uint kWaveShareAll = 0u;
 SHUTTER_CONST uint kWaveShareHeight = 1u;
 SHUTTER_CONST uint kWaveShareColor = 2u;
 
-/// Groups of a dispatch in x: every device bears 65535, and y goes on.
+/// Groups of a dispatch in x, below the guaranteed limit of 65535; y continues.
 SHUTTER_CONST uint kDeformRow = 32768u;
 
 /// The vertices of one geometry at a number of instants. A dispatch works off an array of them.
@@ -72,7 +72,7 @@ struct DeformBatch {
 struct DeformedBoxJob {
     uvec2 vertices; // address of Vertex[]: all vertices at the first key, then at the next
     uvec2 indices;  // address of uint[]
-    uvec2 boxes;    // address of float[]: six a triangle, min and max, in the order of indices
+    uvec2 boxes;    // address of float[]: six per triangle, min and max, in the order of indices
     uint boxStride; // triangles from one interval's boxes to the next one's
     uint vertexCount;
     uint triangleCount;

@@ -8,7 +8,7 @@
 #include "render/shade_hit.glsl"
 
 struct DistributedSample {
-    vec3 radiance;       // linear, blended surfaces composited over what is behind them
+    vec3 radiance;       // linear, blended surfaces composited over their background
     HitId id;            // its entity is kNoEntity where nothing was met. This and all below: of the
                          // first surface that is not blended
     float depth;         // metres along the view direction of that time; kSkyDepth: nothing

@@ -23,7 +23,7 @@ vec3 toEnvironmentMap(EnvironmentRef environment, vec3 direction) {
     );
 }
 
-/// What is seen where nothing is; always storable in a half-float image.
+/// The background; always storable in a half-float image.
 /// \param direction unit
 vec3 backgroundRadiance(FrameRef frame, vec3 direction) {
     if (!hasEnvironment(frame)) return frame.value.background.rgb;

@@ -29,8 +29,8 @@ struct Placement {
     float keyBlend;        // how far towards the later one, [0, 1]
 };
 
-/// Whether the table of entities has a row for the mesh id. Ids of hosts come from images and
-/// structures of their own, and no driver checks what is read by address.
+/// Whether the table of entities has a row for the mesh id. Ids come from the host's images and
+/// acceleration structures, and drivers do not check reads by address.
 bool hasEntityRow(FrameRef frame, uint entity) { return entity < frame.value.entityCount; }
 
 /// \param entity that has a row

@@ -2,7 +2,7 @@
 #ifndef SHUTTER_LIGHTING_GLSL
 #define SHUTTER_LIGHTING_GLSL
 
-/// Whoever knows that no light casts shadows says so by a constant, before this.
+/// A shader without shadows defines this constant as false before including this file.
 #ifndef SHUTTER_MAY_HAVE_SHADOWS
 #define SHUTTER_MAY_HAVE_SHADOWS true
 #endif

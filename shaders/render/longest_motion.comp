@@ -9,7 +9,8 @@ layout(local_size_x = kLongestMotionGroup, local_size_y = kLongestMotionGroup) i
 layout(push_constant, scalar) uniform Push { LongestMotionParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform usampler2D uEntityId;
-layout(binding = 2, scalar) coherent buffer Longest { uint uLongest[]; }; // bits of pixels, one a row, the sky's last
+// bits of pixels, one per row, the sky's last
+layout(binding = 2, scalar) coherent buffer Longest { uint uLongest[]; };
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

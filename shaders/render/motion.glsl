@@ -20,7 +20,7 @@ SHUTTER_INLINE vec2 screenFromClip(vec3 clip, vec2 sizePx) {
 SHUTTER_INLINE vec3 pullInFront(vec3 clip, vec3 visible, float minW) {
     if (clip.z >= minW) return clip;
     float t = saturate((visible.z - minW) / max(visible.z - clip.z, 1.0e-20f));
-    // The cut is where w is minW: the difference of two far larger values would say so badly.
+    // The cut is where w is minW: the difference of two far larger values would be inaccurate.
     return vec3(mix(vec2(visible.x, visible.y), vec2(clip.x, clip.y), t), minW);
 }
 

@@ -44,7 +44,7 @@ float showAtInstants(uvec2 at, float surface, vec2 depths, vec2 light, float sof
     for (uint i = first; i < end; ++i) {
         vec2 pair = unpackHalf2x16(uWords[surfaceDepthWord(uHead, i, at)]);
         float hiding = (i & 1u) == 0u ? pair.x : pair.y;
-        // What is static hides as it does outside the rectangle.
+        // Static surfaces hide particles as outside of the rectangle.
         if (hiding == rounded) hiding = surface;
         float passed = (float(i) + 0.5f) / count - light.x;
         float depth = mix(depths.x, depths.y, saturate(passed / max(light.y - light.x, 1.0e-6f)));

@@ -26,7 +26,7 @@ layout(binding = 9, scalar) readonly buffer Surfaces {
 
 #include "common/surface_parts.glsl"
 
-layout(constant_id = 0) const bool kReadsParts = false; // what lies behind differs between the parts
+layout(constant_id = 0) const bool kReadsParts = false; // the background differs between the parts
 
 layout(location = 0) out vec4 outColor;
 

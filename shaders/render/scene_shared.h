@@ -27,14 +27,14 @@ SHUTTER_CONST uint kNoMotion = 0xFFFFFFFFu;
 
 /// One drawn entity at the raster instant; its index in the table is the mesh id.
 struct EntityRow {
-    mat4 clipFromObjectRaster; // with the camera at the raster instant (jittered where asked for)
+    mat4 clipFromObjectRaster; // with the camera at the raster instant (jittered on request)
     vec4 eyeFromObject[3];     // rows of the 3x4 matrix
     uint firstGeometry;        // index into the geometry table
     float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
                                // mirrored skeleton, else 1
     uint motion;               // index into the table of motions, or kNoMotion
-    uint instanceMask;         // bits of its instance that a ray leaves out to pass it and no other
-                               // entity (instance_masks.h); 0: no mask tells it from all others
+    uint instanceMask;         // bits of its instance that a ray clears to exclude it and no other
+                               // entity (instance_masks.h); 0: it has no unique mask
 };
 
 /// Where an entity that moves in the picture, or whose shape changes, is at the exposure's ends.
@@ -47,8 +47,8 @@ struct EntityMotion {
 struct Geometry {
     uvec2 vertices;       // address of Vertex[]
     uvec2 indices;        // address of uint[]
-    uvec2 openPositions;  // address of vec4[]: xyz object space at shutter open, w 1, one a vertex;
-                          // 0: the shape is static
+    uvec2 openPositions;  // address of vec4[]: xyz object space at shutter open, w 1, one per
+                          // vertex; 0: the shape is static
     uvec2 closePositions; // the same at shutter close
     uint material;
     uint firstIndex; // in the scene's index buffer
@@ -71,8 +71,8 @@ SHUTTER_CONST uint kMaterialBlend = 8u;
 SHUTTER_CONST uint kMaterialAdd = 16u;           // with kMaterialBlend: it hides nothing
 SHUTTER_CONST uint kMaterialPremultiplied = 32u; // with kMaterialBlend: its colour has alpha in it
 
-/// Bits of an instance's mask and of a ray's: what can be met. A ray that leaves out some of the
-/// solid bits passes the instances that have none but those.
+/// Bits of an instance's mask and of a ray's: what can be hit. A ray that clears some of the solid
+/// bits misses the instances that have no others.
 SHUTTER_CONST uint kSolidMask = 0x7Fu;   // opaque and masked surfaces
 SHUTTER_CONST uint kBlendedMask = 0x80u; // blended ones
 
@@ -109,7 +109,7 @@ SHUTTER_CONST uint kFrameUnlit = 1u;       // base colour only
 SHUTTER_CONST uint kFrameShadows = 2u;     // lights cast shadows
 SHUTTER_CONST uint kFrameEnvironment = 4u; // an environment is seen and lights the scene
 
-/// What a scene is lit by beside its own lights (scene::Environment).
+/// Image-based light of a scene, in addition to its lights (scene::Environment).
 struct EnvironmentConstants {
     vec4 irradiance[9];   // rgb: factors of the polynomials of evaluateIrradiance()
     vec4 mapFromWorld[3]; // xyz: rows
@@ -122,7 +122,8 @@ struct EnvironmentConstants {
 struct FrameConstants {
     mat4 clipFromEye;
     mat4 eyeFromClip;
-    mat4 clipFromEyeOpen;  // where what is static at the raster instant is seen at shutter open
+    mat4 clipFromEyeOpen;  // maps points at the raster instant to their place at shutter open, if
+                           // static in the world
     mat4 clipFromEyeClose; // ... and at shutter close; a direction of the world has w = 0
     vec4 forward;          // xyz unit view direction; w: the smallest clip w in front of the camera
     vec4 background;       // linear RGB
@@ -139,7 +140,7 @@ struct FrameConstants {
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
-    uvec2 movingTlas;  // address of a second top level, of what moves; 0: there is none
+    uvec2 movingTlas;  // address of a second TLAS, of movers; 0: there is none
     uvec2 shadows;     // address of ShadowConstants; 0: there are no shadow maps
     uvec2 environment; // address of EnvironmentConstants, where kFrameEnvironment is set
     /// Address of uint[], a bit for each row: 1 where rays meet no blended surface of the entity,

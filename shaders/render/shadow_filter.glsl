@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a shadow map is looked up, and what its texels say. No bindings: unit tests run it too.
+// Lookup positions and filtering of shadow maps. No bindings: unit tests run it too.
 #ifndef SHUTTER_SHADOW_FILTER_GLSL
 #define SHUTTER_SHADOW_FILTER_GLSL
 
@@ -14,8 +14,8 @@ SHUTTER_CONST float kMostEdgeContrast = 3.0f;
 /// Beyond 87 degrees from the light a plane's slope is worth less than its rounding.
 SHUTTER_CONST float kLeastSlopeCosine = 0.05f;
 
-/// How far a point goes off its surface before it is looked up, for what its plane does not say:
-/// curvature, and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
+/// Offset of a point from its surface before the lookup, for errors beyond its plane: curvature,
+/// and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
 /// \return metres
 /// \param cosine of the angle between normal and light
 SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
@@ -79,15 +79,15 @@ SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx) {
     return place;
 }
 
-/// Share of a row of three texels that lets light through. Casters of depth 0 are none.
+/// Transmitted share of a row of three texels. Depth 0 means no caster.
 SHUTTER_INLINE float lightThrough(vec3 casters, vec3 weights, vec3 depths) {
     vec3 at = max(depths, vec3(1.0e-30f));
     return (casters.x > at.x ? 0.0f : weights.x) + (casters.y > at.y ? 0.0f : weights.y) +
            (casters.z > at.z ? 0.0f : weights.z);
 }
 
-/// The weights of nine texels need not add up to exactly 1: their rounding must neither darken what is
-/// fully lit nor light what is fully dark.
+/// The weights of nine texels need not add up to exactly 1: rounding must neither darken fully lit
+/// points nor light fully dark ones.
 SHUTTER_INLINE float settleLight(float sum) {
     float rounding = 1.0e-6f;
     if (sum < rounding) return 0.0f;
@@ -140,7 +140,7 @@ SHUTTER_INLINE bool hasPoint(ShadowCascade cascade, vec3 point) {
     return texel.x >= margin && texel.y >= margin && texel.x <= most && texel.y <= most;
 }
 
-/// Where a receiver that the map has is looked up, lifted off its surface.
+/// Lookup position of a receiver within the map, offset from its surface.
 /// \param point, normal along the light's axes; normal unit, its z above or at 0
 SHUTTER_INLINE ShadowPlace placeInCascade(ShadowCascade cascade, vec3 point, vec3 normal) {
     vec3 lifted = point + normal * normalOffset(1.0f / cascade.texelsPerMetre, normal.z);
@@ -163,13 +163,14 @@ SHUTTER_INLINE vec2 planeSlopeOnRun(vec4 run[2], vec3 normal, float cosine) {
     return vec2(dot(vec3(run[0]), normal), dot(vec3(run[1]), normal)) / cosine;
 }
 
-/// Where a receiver is looked up in a mover's layer, for a light at a place. The layer was drawn from
-/// `light`, and at the instant in question the mover sees the light at `seen`. The ray keeps the place
-/// where it is deepest in the mover's ellipsoid: of what is flat, where it passes the plane, which is
-/// exact; of what is round, where it passes the middle. Only an outline that comes from elsewhere in
-/// the mover is the layer's. (extract::mapToLayer() does the same for a light that is far away.)
+/// Lookup position of a receiver in a mover's layer, for a point light. The layer was drawn from
+/// `light`, and at the instant in question the light is at `seen` in the mover's space. The ray is
+/// remapped around the point where it is deepest in the mover's ellipsoid: for a flat mover, where
+/// it crosses the plane, which is exact; for a round one, where it passes the centre. Only outlines
+/// from elsewhere in the mover are those of the layer. (extract::mapToLayer() does the same for a
+/// directional light.)
 /// \param shape ShadowMover's
-/// \return w 0: the receiver does not lie before the light as the mover sees it; else 1
+/// \return w 0: the receiver is not in front of the light in the mover's space; else 1
 SHUTTER_INLINE vec4
 alignPointRay(vec3 point, vec3 seen, vec3 light, vec3 centre, vec4 shape[3]) {
     vec3 way = seen - point;

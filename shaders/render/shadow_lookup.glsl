@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of a light reaches a point: by maps of what is static and of what moves, or as a ray
-// has found it.
+// Visibility of a light at a point: from maps of static casters and movers, or from a ray.
 #ifndef SHUTTER_SHADOW_LOOKUP_GLSL
 #define SHUTTER_SHADOW_LOOKUP_GLSL
 
@@ -127,8 +126,8 @@ vec3 transformDirection(vec4 rows[3], vec3 d) {
     return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d));
 }
 
-/// Light that passes what is in the maps of a light that is far away: the finest one that has the
-/// place counts.
+/// Visibility through the maps of a directional light: the finest cascade that contains the place
+/// is used.
 float passCascades(ShadowRef shadows, ShadowLight own, Receiver receiver) {
     ShadowCascadeTable cascades = ShadowCascadeTable(shadows.value.cascades);
     vec3 point = transformDirection(own.axes, receiver.position);
@@ -144,7 +143,7 @@ float passCascades(ShadowRef shadows, ShadowLight own, Receiver receiver) {
     );
 }
 
-/// Light that passes what is in the light's own maps.
+/// Visibility through the light's own maps.
 float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
     if (light.kind == kLightDirectional) return passCascades(shadows, own, receiver);
     uint face =
@@ -299,8 +298,8 @@ FoundMovers findMovers(ShadowRef shadows, uint candidates, Receiver receiver) {
         else
             found.resting |= 1u << i;
     }
-    // What is looked up is a point of the surface, and a blur carries it along: what moves by itself
-    // is lit as at the raster instant.
+    // The receiver is a point of the surface that the blur carries along: movers are lit as at the
+    // raster instant.
     if (receives) found = FoundMovers(found.resting | found.moving, 0u);
     return found;
 }
@@ -335,8 +334,8 @@ float passMovers(
     return resting * sum / float(count);
 }
 
-/// Share of a light that reaches a point, [0, 1], at the raster instant or, for shadows of what
-/// moves, over the exposure.
+/// Visibility of a light at a point, [0, 1], at the raster instant or, for shadows of movers, over
+/// the exposure.
 /// \param index of the light
 /// \param normal of the triangle, unit, on the viewer's side
 /// \param toLight unit

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shadow maps as the shading reads them. "Texels" are floats in a buffer rather than an image, so
-// that whatever shades by a frame's constants, raster or ray, has them without a binding of its
-// own.
+// that raster and ray shaders with a frame's constants can access them without another binding.
 #ifndef SHUTTER_SHADOW_SHARED_H
 #define SHUTTER_SHADOW_SHARED_H
 
@@ -48,7 +47,7 @@ struct ShadowCascade {
     uint padding0;
 };
 
-/// Width and height of the tiles that say which movers' shadows may fall into them.
+/// Width and height of the tiles that list the movers whose shadows may fall into them.
 SHUTTER_CONST uint kShadowTilePx = 32u;
 
 /// Rounding of linear depths; those in perspective are rounded in proportion.
@@ -56,7 +55,7 @@ SHUTTER_CONST float kDepthRounding = 5.0e-7f;
 /// The same of all depths, as a share.
 SHUTTER_CONST float kDepthScaleRounding = 1.0e-6f;
 
-/// Beside each row of the table of lights.
+/// Parallel to the rows of the table of lights.
 struct ShadowLight {
     uint firstMap;   // of the light's maps, or kNoShadowMap: the light casts no shadows
     uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
@@ -65,7 +64,7 @@ struct ShadowLight {
     vec4 axes[3];    // xyz of a light that is far away: right, up and towards it, unit, eye space
 };
 
-/// A caster that moves, and has layers of its own for each light: maps of it alone.
+/// A moving caster with separate layers for each light: maps of it alone.
 struct ShadowMover {
     vec4 sphere;       // xyz eye space, w radius, metres: at the raster instant
     vec4 sweptSphere;  // the same over the whole exposure
@@ -89,8 +88,8 @@ struct ShadowInstant {
     vec4 rasterFromInstant[3];
 };
 
-/// Where points of eye space are looked up in a mover's layer at successive instants, for a light
-/// that is far away: by an affine map at each, which is linear in the instant's number.
+/// Mapping from eye space into a mover's layer at successive instants, for a directional light: an
+/// affine map per instant, linear in the instant's number.
 struct ShadowRun {
     vec4 first[3]; // rows of the first instant's: x and y in texels, depth with its bias
     vec4 step[3];  // what each further instant adds
@@ -106,7 +105,7 @@ struct ShadowConstants {
     uvec2 texels;   // addresses: of float[]
     uvec2 lights;   // of ShadowLight[]
     uvec2 maps;     // of ShadowMap[], a row for each map
-    uvec2 cascades; // of ShadowCascade[], too: the light's kind says which of the two is read
+    uvec2 cascades; // of ShadowCascade[], too: the light's kind selects which of the two is read
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
     uvec2 runs;     // of ShadowRun[]
@@ -122,9 +121,8 @@ struct ShadowDraw {
     mat4 clipFromObject;
     uvec2 frame;   // address of FrameConstants
     uint geometry; // row of the geometry table
-    /// What deforms is drawn between its shape at the raster instant (0) and the one at shutter
-    /// open
-    /// (-1) or close (1).
+    /// Deforming casters are drawn between their shape at the raster instant (0) and the one at
+    /// shutter open (-1) or close (1).
     float shapeShift;
 };
 

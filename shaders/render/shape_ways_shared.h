@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws where what deforms in a raster is seen in the course of the exposure
+// Draws the per-pixel motion of a raster's deforming entities over the exposure
 // (common/pixel_way.glsl).
 #ifndef SHUTTER_SHAPE_WAYS_SHARED_H
 #define SHUTTER_SHAPE_WAYS_SHARED_H

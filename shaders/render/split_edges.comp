@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splits the samples of a pixel into its own surface, which is the one that covers most of them,
-// and the one that covers most of the others. What moves alike counts as one surface.
+// and the one that covers most of the others. Surfaces with equal motion count as one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -40,7 +40,7 @@ uint findMost(vec3 motionDepths[kSampleCount], uint among) {
     return most;
 }
 
-/// A sample and what it shows.
+/// A sample and its surface.
 struct Seen {
     int index;
     float depth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A raster with several samples per pixel as one surface per pixel and, at edges of what moves,
-// another one.
+// A raster with several samples per pixel as one surface per pixel and, at edges of movers, a
+// second one.
 #ifndef SHUTTER_SPLIT_SAMPLES_SHARED_H
 #define SHUTTER_SPLIT_SAMPLES_SHARED_H
 

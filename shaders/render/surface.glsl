@@ -33,10 +33,10 @@ struct Surface {
     vec3 emissive;
 };
 
-/// How a surface joins what lies behind it.
+/// How a surface is combined with its background.
 struct BlendShares {
     float light;   // share of its colour that reaches the viewer, [0, 1]
-    float opacity; // how much of what lies behind it hides, [0, 1]
+    float opacity; // share of the background that it hides, [0, 1]
 };
 
 /// \param flags of the material

@@ -73,7 +73,7 @@ LightSet lightsAt(TimedRef moving, float s) {
     uint first;
     float blend;
     findKeys(keys, s, first, blend);
-    // 64 bytes a light; tables are far smaller than 4 GiB.
+    // 64 bytes per light; tables are far smaller than 4 GiB.
     uint carry;
     uint at = first * count * 64u;
     uvec2 near = uvec2(uaddCarry(table.x, at, carry), table.y);

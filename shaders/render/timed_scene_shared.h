@@ -13,7 +13,7 @@ struct MotionKey {
     vec4 rows[3];
 };
 
-/// Beside each row of the entity table.
+/// Parallel to the rows of the entity table.
 struct TimedRow {
     uvec2 keys;         // address of MotionKey[]: eyeFromObject
     uint keyCount;      // 1: it is static; else uniform over s, both ends included
@@ -29,7 +29,7 @@ struct TimedRow {
 /// The camera's lens at one shutter time.
 struct LensKey {
     float radius; // half the height of its opening, metres
-    float focus;  // 1 / distance of what is in focus, 1/m
+    float focus;  // 1 / focus distance, 1/m
 };
 
 struct TimedConstants {

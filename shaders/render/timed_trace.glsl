@@ -7,7 +7,7 @@
 #include "render/ray_triangle.glsl"
 #include "render/trace.glsl"
 
-/// What of the moving scene a ray is asked for.
+/// A ray query in the moving scene.
 struct TimedQuery {
     float s;   // shutter time
     vec3 eye;  // place of the camera, eye space
@@ -69,7 +69,8 @@ void traceEntity(
     TimedTable table = TimedTable(moving.value.rows);
     uvec2 address = table.rows[entity].meshScene;
     if (placement.deforms) address = ShapeSceneTable(address).addresses[placement.firstKey];
-    // What deforms is met in boxes: its triangles' facing is found here, not by the query.
+    // Deforming meshes are hit in boxes: their triangles' facing is computed here, not by the
+    // query.
     bool mirrored = table.rows[entity].handedness < 0.0f;
     HitId deformed = HitId(entity, 0u, 0u, vec2(0.0f));
     rayQueryEXT inner;

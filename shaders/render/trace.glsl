@@ -13,7 +13,7 @@
 
 #include "render/hit.glsl"
 
-/// Blended surfaces along a ray that are told apart.
+/// Maximum number of separate blended surfaces along a ray.
 const uint kMaxLayers = 16u;
 
 struct RayHit {
@@ -64,7 +64,7 @@ bool isMet(
     FrameRef frame, HitId id, float t, bool frontFace, vec3 direction, uint mask, LeftSurface left
 ) {
     if (id.entity == left.entity && t <= left.until) return false;
-    // Nothing is known of an entity without a row: it hides what lies behind it.
+    // An entity without a row is treated as opaque.
     if (!hasEntityRow(frame, id.entity)) return (mask & kSolidMask) != 0u;
     Placement placement = placeAtRaster(frame, id.entity);
     return isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask);

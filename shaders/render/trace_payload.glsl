@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the shaders of a ray-tracing pipeline tell one another of a ray.
+// Payload shared by the shaders of a ray-tracing pipeline.
 #ifndef SHUTTER_TRACE_PAYLOAD_GLSL
 #define SHUTTER_TRACE_PAYLOAD_GLSL
 
 struct TracePayload {
     uvec2 frame;     // to the candidates' shader: address of FrameConstants,
     uint mask;       // what the ray meets
-    uint leftEntity; // and what it passes: LeftSurface
+    uint leftEntity; // and the surface to pass: LeftSurface
     float leftUntil;
     uint found; // back: 1 where it hit
     float t;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The trace layer of ray-tracing pipelines (trace.glsl includes it): for the shader in which rays
-// start. The pipeline that uses it has the others beside its own (motion_blur/reveal.rahit, .rchit, .rmiss).
+// The trace layer of ray-tracing pipelines (trace.glsl includes it): for the ray generation shader.
+// The pipeline that uses it has the other stages in separate files (motion_blur/reveal.rahit,
+// .rchit, .rmiss).
 #ifndef SHUTTER_TRACE_PIPELINE_GLSL
 #define SHUTTER_TRACE_PIPELINE_GLSL
 
@@ -19,7 +20,7 @@ RayHit readTraced() {
 
 /// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
 /// \param direction unit
-/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
+/// \param mask what the ray may hit: kSolidMask (or a part of it), kBlendedMask or both
 RayHit traceRay(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
     float tMax, uint mask, LeftSurface left
@@ -31,7 +32,7 @@ RayHit traceRay(
     uint flags = findRayFlags(mask, left);
     traceRayEXT(scene, flags, mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0);
     RayHit nearest = readTraced();
-    // What moves may be in a level of its own (FrameConstants::movingTlas).
+    // Movers may be in a separate TLAS (FrameConstants::movingTlas).
     uvec2 movingTlas = frame.value.movingTlas;
     if ((movingTlas.x | movingTlas.y) == 0u) return nearest;
     float end = nearest.found ? nearest.t : tMax;

@@ -5,14 +5,14 @@
 
 /// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
 /// \param direction unit
-/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
+/// \param mask what the ray may hit: kSolidMask (or a part of it), kBlendedMask or both
 RayHit traceRay(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
     float tMax, uint mask, LeftSurface left
 ) {
     RayHit result;
     result.found = false;
-    // What moves may be in a level of its own (FrameConstants::movingTlas).
+    // Movers may be in a separate TLAS (FrameConstants::movingTlas).
     uvec2 movingTlas = frame.value.movingTlas;
     uint levels = (movingTlas.x | movingTlas.y) != 0u ? 2u : 1u;
     uint flags = findRayFlags(mask, left);

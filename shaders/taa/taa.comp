@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Temporal anti-aliasing of what is static: each frame samples another place in the pixel, and the
-// mean of them is kept, also while something moves in front. What moves is sampled at the pixel's
-// centre and passes through.
+// Temporal anti-aliasing of static surfaces: each frame samples another place in the pixel, and
+// their mean is accumulated and preserved while something moves in front. Movers are sampled at the
+// pixel's centre and pass through.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -47,7 +47,7 @@ uint stateOf(uint row) {
 /// The static ones of a pixel and those around it.
 struct Neighbourhood {
     ColorMoments moments; // compressed YCoCg
-    vec3 middle;          // what is seen at the pixel's middle, in the same encoding
+    vec3 middle;          // colour at the pixel's centre, in the same encoding
 };
 
 const Neighbourhood kNowhere =
@@ -75,7 +75,7 @@ Neighbourhood lookAround(ivec2 pixel) {
 
 const Kept kNothing = Kept(ivec3(0), 0.0f, 0u);
 
-/// What was kept of the pixel.
+/// History of the pixel.
 struct Before {
     Kept kept;      // count 0: nothing that is still there
     uint row;       // of this frame, or kNoRow

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What becomes of the colour that was kept of a pixel. Colours are compared and mixed by
-// brightness as it is seen, so that a single bright sample does not outweigh all others (Karis
-// 2014, "High Quality Temporal Supersampling").
+// Update of a pixel's accumulated colour. Colours are compared and mixed by perceived brightness,
+// so that a single bright sample does not outweigh all others (Karis 2014, "High Quality Temporal
+// Supersampling").
 #ifndef SHUTTER_TAA_GLSL
 #define SHUTTER_TAA_GLSL
 
@@ -14,8 +14,8 @@ SHUTTER_SHADER_BEGIN
 /// the pixel's neighbourhood (Salvi 2016, "An Excursion in Temporal Supersampling").
 SHUTTER_CONST float kClipDeviations = 2.0f;
 
-/// Colours that a display shows are as they are; what is brighter is brought to below 2, channel by
-/// channel by the same factor.
+/// Displayable colours do not change; brighter ones are scaled to below 2, all channels by the same
+/// factor.
 SHUTTER_INLINE vec3 compress(vec3 color) {
     float peak = max(max(color.x, color.y), color.z);
     return peak > 1.0f ? color * ((2.0f - 1.0f / peak) / peak) : color;
@@ -76,8 +76,8 @@ SHUTTER_INLINE Clipped clipToVariance(vec3 color, ColorMoments moments) {
     return clipped;
 }
 
-/// Weights of samples one pixel apart in what is seen at the pixel's middle, by the quadratic
-/// B-spline: they add up to 1 wherever the samples lie.
+/// Weights of samples one pixel apart for the colour at the pixel's centre, by the quadratic
+/// B-spline: they sum to 1 for any offset.
 /// \param offset of the middle sample from the pixel's middle, pixels, [-0.5, 0.5]
 SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
     float before = 0.5f - offset;
@@ -85,7 +85,7 @@ SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
     return vec3(0.5f * after * after, 0.75f - offset * offset, 0.5f * before * before);
 }
 
-/// Steps of 1 in Kept::sum: finer than a half float's where a display can tell colours apart.
+/// Steps of 1 in Kept::sum: finer than a half float's where a display can distinguish colours.
 SHUTTER_CONST float kSteps = 16777216.0f;
 
 /// What a pixel keeps for the frames after. Whole numbers, because their sum is the same in whatever
@@ -96,7 +96,7 @@ struct Kept {
     uint left;   // frames that the mean still follows, because it was in doubt
 };
 
-/// Frames that a mean follows after a doubt: 2 % of what is out of date in it are left then.
+/// Frames in which a mean adapts after a possible change: 2 % of the outdated colour remain then.
 SHUTTER_CONST uint kFollowedFrames = 63u;
 
 /// In one word, whose last bits are a fraction of the count. \param count up to 255
@@ -122,10 +122,10 @@ SHUTTER_INLINE vec3 meanOf(Kept kept) {
     return vec3(kept.sum) / (kept.count * kSteps);
 }
 
-/// A frame more, unless the pixel has had one for each place and has long been what it was: its
-/// mean stays, so that it does not flicker.
+/// Adds a frame, unless the pixel has had one for each place and has long been unchanged: its mean
+/// then stays constant, so that it does not flicker.
 /// \param current this frame's colour, compressed
-/// \param mayDiffer the surface may look different than before: the mean must lie among the moments
+/// \param mayDiffer the surface may have changed: the mean is clipped to the moments
 /// \param moments of the neighbourhood, compressed YCoCg
 SHUTTER_INLINE Kept addFrame(vec3 current, Kept last, bool mayDiffer, ColorMoments moments) {
     Kept kept = last;

@@ -33,7 +33,7 @@ struct TaaParams {
     uvec2 frame;   // address of FrameConstants
     StaticRows rows;
     uint hasLast;   // 1: colours were kept
-    uint mayDiffer; // 1: what is static may look different than in the last frame
+    uint mayDiffer; // 1: static surfaces may differ from the last frame
 };
 
 SHUTTER_SHADER_END

@@ -15,7 +15,7 @@ struct TonemapParams {
     uvec2 sizePx;
     float gain; // linear multiplier before the operator: 2^EV
     uint operator_;
-    uvec2 brightest; // address of float[]: by group, row by row; 0: it is not asked for
+    uvec2 brightest; // address of float[]: by group, row by row; 0: not requested
 };
 
 SHUTTER_SHADER_END

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Mean and standard error from two independent sets of rays.
 //
-// A stratified set converges faster than the spread of its own samples tells, so no formula over one
-// set gives its error. Two sets A and B that share no random number do: with means a and b of n rays
-// each, the picture shows (a + b) / 2, whose variance is that of a over 2, and E[(a - b)^2] is twice
-// the variance of a: so ((a - b) / 2)^2 is that variance, without bias. One pixel's value says
-// little; its root mean square over a picture is good to a few percent.
+// A stratified set converges faster than the spread of its own samples suggests, so no formula over
+// one set gives its error. Two sets A and B that share no random number do: with means a and b of n
+// rays each, the picture shows (a + b) / 2, whose variance is that of a over 2, and E[(a - b)^2] is
+// twice the variance of a: so ((a - b) / 2)^2 is that variance, without bias. One pixel's value is
+// unreliable; its root mean square over a picture is accurate to a few percent.
 #ifndef SHUTTER_ESTIMATE_GLSL
 #define SHUTTER_ESTIMATE_GLSL
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One batch of rays a pixel, added to the sums of the batches before; mean and error of all so far.
+// One batch of rays per pixel, added to the sums of earlier batches; mean and error of all so far.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/sampling.glsl"

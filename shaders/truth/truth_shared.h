@@ -12,8 +12,8 @@ struct TruthParams {
     uvec2 sizePx;
     uvec2 frame;   // address of FrameConstants
     uvec2 moving;  // address of TimedConstants
-    uint firstRay; // rays a pixel has before this batch; 0 clears
-    uint rayCount; // rays a pixel of this batch
+    uint firstRay; // rays per pixel before this batch; 0 clears
+    uint rayCount; // rays per pixel of this batch
     uint seed;
     uint boxFilter; // 1: anywhere in the pixel, 0: its centre
     uvec2 response; // address of the shutter's ResponseTable; 0: a box
