@@ -10,7 +10,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/lib/messages.sh
 source "$root/scripts/lib/messages.sh"
 
-# Shots of docs/gpu.md; of the one in the middle each pass has its row.
+# Shots of modules/motion_blur/gpu.md; of the one in the middle each pass has its row.
 shots=(vase courtyard pan)
 methods=(gather hybrid resolved)
 sizes=(1920x1080 2560x1440 3840x2160)

@@ -125,7 +125,7 @@ struct Camera {
     double far = 1000.0; ///< metres; orthographic only, perspective reaches to infinity
 };
 
-/// Where in the exposure the raster image lies (docs/shutter.md).
+/// Where in the exposure the raster image lies (engine/scene/shutter.md).
 enum class ShutterPhase : uint8_t {
     Start,  ///< exposure runs [t, t + E]
     Centre, ///< [t - E/2, t + E/2]

@@ -44,7 +44,7 @@ struct PictureStatistics {
     render::FrameStatistics frame;
 };
 
-/// --stats: schema in docs/statistics.md.
+/// --stats: schema in docs/measuring.md.
 [[nodiscard]] core::Status writeStatistics(
     const std::filesystem::path& path,
     const RenderOptions& options,

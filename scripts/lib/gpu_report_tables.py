@@ -69,7 +69,7 @@ def print_row(*cells):
 
 
 def print_sums(folder, shots, methods, sizes):
-    print("## Sums\n\nms of the blur's own passes, as in docs/gpu.md.\n")
+    print("## Sums\n\nms of the blur's own passes, as in modules/motion_blur/gpu.md.\n")
     print_row("shot", "method", *sizes)
     print_row("---", "---", *("---:" for _ in sizes))
     for shot in shots:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The three tests of the ray mask, each taken away in turn, and how far the range check reaches;
-// the table of alpha modes in docs/limits.md, cell by cell.
+// the table of alpha modes in modules/motion_blur/limits.md, cell by cell.
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"

@@ -117,7 +117,7 @@ typedef struct ShutterBlurDevice {
      * ShutterBlurInputs::budgetMilliseconds: two timestamps a pass and a few small copies. */
     VkBool32 measures;
     /* Checks the inputs of each recording for range and consistency, and reports faults to
-     * `message` (docs/debugging_integration.md). 0 costs nothing. */
+     * `message` (modules/motion_blur/embedding/README.md). 0 costs nothing. */
     VkBool32 checksInputs;
     /* Gets what the checker finds, why a dump failed, and that the object is destroyed too early;
      * or null. */
@@ -143,7 +143,7 @@ SHUTTER_BLUR_API void shutterBlurDestroy(ShutterBlur* blur);
 /* ---- Settings ------------------------------------------------------------------------------- */
 
 /* "sampleCount" and "15", or "history" and "false": names, values and ranges are those of the page
- * docs/settings.md. */
+ * modules/motion_blur/settings.md. */
 typedef struct ShutterBlurValue {
     const char* name;
     const char* value;
@@ -449,7 +449,7 @@ typedef struct ShutterBlurInputs {
     double budgetMilliseconds;
 
     /* For debugging: panels over the blurred picture show what the effect reads, and what of it the
-     * camera explains (docs/debugging_integration.md). Dumps are without. */
+     * camera explains (modules/motion_blur/embedding/README.md). Dumps are without. */
     VkBool32 showsInputs;
     /* The shutter's response: times rise from 0 to 1, and it is straight between them. */
     const ShutterBlurResponsePoint* responsePoints;

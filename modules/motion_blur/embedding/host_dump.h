@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a host's inputs and the resulting picture to a folder, for `shutter replay`. For each
 // frame, `frame_0000.json` holds the host's parameters and names a file of raw texels for each
-// image (docs/debugging_integration.md).
+// image (modules/motion_blur/embedding/README.md).
 #pragma once
 
 #include "engine/core/result.h"
