@@ -29,8 +29,8 @@ function(shutter_include_roots target scope)
     endif()
 endfunction()
 
-# The package that has a library of somebody else, by the library's name: <name>.pc for one that
-# pkg-config knows; empty for one that is linked by its file or its plain name.
+# The package of a third-party library, by the library's name: <name>.pc for one that pkg-config
+# knows; empty for one that is linked by its file or its plain name.
 function(_shutter_find_package_name library result)
     set(${result} "" PARENT_SCOPE)
     if(library MATCHES "^PkgConfig::(.+)")
@@ -111,8 +111,8 @@ endfunction()
 
 # Once all libraries are declared.
 function(shutter_install_package)
-    # Headers for post effects and programs on the engine. Other engines have the two public ones of
-    # the motion blur; what is behind these is not theirs.
+    # Headers for post effects and programs on the engine. Other engines get the two public ones of
+    # the motion blur; the headers behind these are private.
     if(NOT SHUTTER_EMBEDDING_ONLY)
         foreach(folder engine modules)
             install(DIRECTORY ${SHUTTER_ROOT}/${folder} DESTINATION ${SHUTTER_INSTALL_HEADERS}
@@ -134,7 +134,7 @@ function(shutter_install_package)
     configure_package_config_file(
         ${SHUTTER_ROOT}/cmake/ShutterConfig.cmake.in ${folder}/ShutterConfig.cmake
         INSTALL_DESTINATION ${SHUTTER_INSTALL_PACKAGE} PATH_VARS SHUTTER_INSTALL_HEADERS)
-    # Before 1.0 a minor version may change what is there.
+    # Before 1.0 a minor version may change the interface.
     write_basic_package_version_file(${folder}/ShutterConfigVersion.cmake
                                      COMPATIBILITY SameMinorVersion)
     install(FILES ${folder}/ShutterConfig.cmake ${folder}/ShutterConfigVersion.cmake

@@ -45,9 +45,9 @@ function(_shutter_make_shared_part target)
     target_compile_definitions(${target} PRIVATE FMT_HEADER_ONLY)
 endfunction()
 
-# The headers that most files read and that this tree rarely changes: without them precompiled,
-# a third of a build's time goes into reading them. Files include what they use all the same: the
-# test `layering` and the preset `dev`, which precompiles nothing, find what is missing.
+# The headers that most files read and that this tree rarely changes: without them precompiled, a
+# third of a build's time goes into reading them. Files include what they use all the same: the test
+# `layering` and the preset `dev`, which precompiles nothing, find missing includes.
 set(SHUTTER_PRECOMPILED_HEADERS
     <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map>
     <memory> <numbers> <optional> <set> <span> <string> <string_view> <utility> <vector>

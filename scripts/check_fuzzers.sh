@@ -35,7 +35,7 @@ FUZZ_BUILD_JOBS is the number of files compiled at a time.
 TEXT
 }
 
-# Copies what reader $1 begins with to folder $2: the seeds of the tree and, where they lie beside it,
+# Copies what reader $1 begins with to folder $2: the seeds of the tree and, where they exist,
 # damaged scenes with the files that they name.
 gather_seeds() {
     local seeds=$root/tests/fuzz/seeds/$1 shared=$root/../shared/gltf-malformed
@@ -60,7 +60,7 @@ fuzz() {
     rm -rf "$work/run"
     mkdir -p "$work/run/corpus"
     gather_seeds "$reader" "$work/run/corpus"
-    # The readers write beside their input and say what they think of it.
+    # The readers write next to their input and print their verdict.
     (
         cd "$work/run"
         "$build/fuzz_$reader" corpus -runs="$runs" -seed="$seed" -max_len="$largest" -timeout=5 \

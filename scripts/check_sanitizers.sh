@@ -18,7 +18,7 @@ labels='^(unit|graph|robustness)$'
 # Those that draw, by linking to what they test or by running the program.
 drawing_labels='^(gpu|image|stability)$'
 program_labels='^cli$'
-# Loaders close it before leaks are looked for, and what it allocated has no names then.
+# Loaders close it before leaks are searched, and what it allocated has no names then.
 validation_layer=libVkLayer_khronos_validation.so
 
 # The programs of the short run: what reads files, keeps memory or sorts passes.

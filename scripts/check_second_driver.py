@@ -40,7 +40,7 @@ PROGRAMS = {"test_gpu": "*", "test_gpu_ui": "*", "test_image": "*",
 # the depth of the sky that hides particles at instants, and light beyond 65,504.
 BROKEN = ("ParticleLaw.ACameraThatPansBlursThemAsItDoesTheWorld",
           "ParticleLaw.LightThatThePictureCannotHoldStaysFinite")
-# Not run: up to minutes each, most of them spent while the driver compiles `resolved` for each picture anew.
+# Not run: up to minutes each, mostly because the driver compiles `resolved` again for each picture.
 SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.WhatIsPreparedAhead*", "InstantNoises.*",
         "MethodSettingsLaw.*", "ParticleLaw.*Instant*", "ParticleLaw.OverGlass*", "PhaseLaw.*",
         "PictureDrawerTest.AFrameInWhichSomethingJumps*", "Resolved*", "SecondRaster.*")

@@ -66,7 +66,7 @@ def is_unpinned_driver():
                    for pin in pins)
 
 
-# By name: the function that tells whether the condition holds, and how many words it takes.
+# By name: the function that evaluates the condition, and its number of arguments.
 CONDITIONS = {
     "absent": (is_absent, range(1, 2)),
     "no-program": (lacks_program, range(1, 10)),

@@ -66,7 +66,7 @@ list_changed_files() {
     )
 }
 
-# Checks file $1; prints what was found, whole, so that files checked at the same time do not mix.
+# Checks file $1; prints the findings as a whole, so that files checked at the same time do not mix.
 # The compiler's own warnings are g++'s to give.
 check_file() {
     local found
@@ -120,7 +120,7 @@ main() {
     trap 'rm -rf "$database"' EXIT
     cp "$build/compile_commands.json" "$database/all.json"
     # Where several sources are compiled as one, a build that is only configured knows each one's
-    # command; what is generated lies in the one that was built.
+    # command; generated files are in the one that was built.
     if grep -q '/Unity/unity_' "$database/all.json"; then
         cmake --preset release -B "$database/plain" -DCMAKE_UNITY_BUILD=OFF >/dev/null
         sed "s#$database/plain/generated#$root/$build/generated#g" \

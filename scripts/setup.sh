@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing, configures and builds; leaves build/release/shutter.
+# Installs missing packages, configures and builds; leaves build/release/shutter.
 set -euo pipefail
 
 script_name=setup

@@ -47,7 +47,7 @@ struct CoursePoint {
 /// Metres from the centre line, to half a metre.
 [[nodiscard]] float measureCourseDistance(glm::vec2 place);
 
-/// What stands in the land and is drawn with it.
+/// Objects in the landscape.
 struct RallyLand {
     Shape fenceRails;
     Shape fencePosts;
@@ -58,12 +58,12 @@ struct RallyLand {
     Shape tyres;
     Shape seats; ///< of the grandstand
     Shape awning;
-    std::vector<Shape> spectators{}; ///< one a colour
+    std::vector<Shape> spectators{}; ///< one per colour
 };
 
 /// Meadow, road, hills, trees, fences and gates: one node `land`.
 void addRallyLand(GltfWriter& writer, const RallyLand& land);
-/// `ground`: the square of the fairground and what stands on it.
+/// `ground`: the square of the fairground and its objects.
 void addSquare(GltfWriter& writer);
 /// `car` with body, wheels and a camera.
 void addRallyCar(GltfWriter& writer);

@@ -45,7 +45,7 @@ struct Gait {
 
 [[nodiscard]] Gait makeRun();
 
-/// Stands 1.75 m high on the ground at the origin and looks along +Z. \param coat, trousers linear
+/// A figure 1.75 m high on the ground at the origin, facing +Z. \param coat, trousers linear
 Index addFigureMesh(
     GltfWriter& writer, const std::string& name, glm::vec3 coat, glm::vec3 trousers
 );

@@ -19,7 +19,7 @@ namespace shutter::generator {
 
 namespace {
 
-/// A rail along X. Targets stand on it.
+/// A rail along X with targets.
 struct Rail {
     vec3 middle{0.0f}; ///< of its upper side
     float halfLength = 5.0f;
@@ -167,7 +167,7 @@ void addBunting(GltfWriter& writer) {
     );
 }
 
-/// A window under the runner's arm: what is seen through it is now the runner, now the wall.
+/// A window under the runner's arm: through it the runner and the wall are visible by turns.
 void addCarriedPane(GltfWriter& writer, Index runner) {
     constexpr vec2 kHalf{0.75f, 0.55f};
     constexpr float kBar = 0.03f;
@@ -294,7 +294,7 @@ void addRails(GltfWriter& writer) {
     }
 }
 
-/// Looks from `position` at `target`.
+/// A camera at `position`, facing `target`.
 void addCamera(GltfWriter& writer, const char* name, vec3 position, vec3 target, float yFov) {
     writer.addNode(
         {.name = name,

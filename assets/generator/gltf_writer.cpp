@@ -72,8 +72,8 @@ bool isArrayOf(const json& value, json::value_t type) {
            });
 }
 
-/// Whether what is added to a file's document keeps it valid: it has one scene, one buffer, which
-/// is in the file, and lists where the writer expects them.
+/// Whether additions keep a file's document valid: it has one scene, one buffer, which is in the
+/// file, and the lists that the writer extends.
 bool canExtend(const json& root) {
     const auto has = [&](const char* name, json::value_t type) {
         return !root.contains(name) || isArrayOf(root[name], type);

@@ -67,8 +67,8 @@ class GltfWriter {
   public:
     explicit GltfWriter(std::string title);
 
-    /// Opens a binary glTF file with one scene and one buffer, to be added to. write() returns what
-    /// is wrong with the file.
+    /// Opens a binary glTF file with one scene and one buffer, for additions. write() returns
+    /// errors of the file.
     [[nodiscard]] static GltfWriter open(const std::filesystem::path& path);
 
     /// Repeats, with mip maps.
@@ -83,8 +83,8 @@ class GltfWriter {
     Index addLight(const std::string& name, const LightDesc& light);
     /// The parent must have been added before.
     Index addNode(const NodeDesc& node);
-    /// Gives the first node of that name a velocity, m/s in its own space. write() tells that there
-    /// is none.
+    /// Gives the first node of that name a velocity, m/s in its own space. write() returns an error
+    /// if there is none.
     void moveNode(const std::string& name, glm::vec3 linearVelocity);
 
     /// \param joints nodes, added before \param jointFromBind inverse bind matrices, one per joint

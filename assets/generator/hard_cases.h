@@ -20,7 +20,7 @@ inline constexpr double kCaseSeconds = 0.2;
 struct BenchCase {
     const char* name;        ///< of its file, without ".glb"; [a-z_]
     const char* title;       ///< for people
-    std::string description; ///< one sentence: what is hard in it, and how far it moves
+    std::string description; ///< one sentence: the difficulty, and the length of the motion
     GltfWriter (*build)();
     double timeSeconds = kCaseSeconds;
     double exposureSeconds = kCaseExposureSeconds;
@@ -30,13 +30,13 @@ struct BenchCase {
     /// Bounds of the longest motion of any pixel or particle over the exposure, at kCaseSizePx;
     /// [x, y].
     glm::vec2 peakMotionPx;
-    bool movesParticles = false; ///< what moves are particles alone
+    bool movesParticles = false; ///< only particles move
 };
 
 /// In the order in which they are meant to be read.
 [[nodiscard]] std::span<const BenchCase> listHardCases();
 
-// The cases' scenes, told apart by what they move.
+// The cases' scenes, by the objects that they move.
 [[nodiscard]] GltfWriter buildTranslationCase();
 [[nodiscard]] GltfWriter buildSpinCase();
 [[nodiscard]] GltfWriter buildWheelSpokesCase();

@@ -45,7 +45,7 @@ void addSteadyTranslation(
 );
 void addSteadyYaw(GltfWriter& writer, const char* name, Index node, float yaw, float turn);
 
-/// Where a node with that velocity must stand at time 0 to be at `place` at the case's time.
+/// Place at time 0 of a node with that velocity that is at `place` at the case's time.
 [[nodiscard]] glm::vec3 startFor(glm::vec3 place, glm::vec3 velocity);
 
 /// A node with a velocity of `pixels` in an exposure, parallel to the picture, whose origin is seen

@@ -22,7 +22,7 @@ constexpr const char* kPinkRoom = "pink-room/pink_room_lite_animated.glb";
 constexpr const char* kStaircase = "wooden-staircase/wooden_staircase.glb";
 constexpr const char* kGreyWhiteRoom = "grey-white-room/grey_white_room.glb";
 
-/// A camera's place; looks down -Z of its rotation.
+/// A camera's place, with -Z of its rotation forward.
 struct Standpoint {
     vec3 position;
     glm::quat rotation;
@@ -48,10 +48,10 @@ Standpoint lookAt(vec3 from, vec3 to, float yFov) {
     return {from, glm::quatLookAt(glm::normalize(to - from), vec3(0.0f, 1.0f, 0.0f)), yFov};
 }
 
-/// What is in focus, and how far something else is spread.
+/// Focus distance, and the spread of another depth.
 struct Focus {
     float distance; ///< metres
-    float depth;    ///< metres, of what is spread
+    float depth;    ///< metres, of the spread surface
     float radiusPx; ///< of its circle of confusion, in a picture 270 px high
 };
 
@@ -79,7 +79,7 @@ void addLensCamera(
     const Focus& focus,
     const std::optional<CameraMove>& move = {}
 ) {
-    // What moves the camera is a node of its own, as velocities want one that is not rotated.
+    // The camera's motion is on a separate node, since velocities require one that is not rotated.
     NodeDesc stand{.name = "lens_stand", .translation = view.position};
     if (move) {
         stand.linearVelocity = move->metres / kExposureSeconds;

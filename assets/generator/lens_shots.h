@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shots of rooms that a lens sees: what is put into a room, what moves there, and the camera.
+// Shots of rooms with a lens: added objects, their motion, and the camera.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -17,7 +17,7 @@ struct LensShot {
     const char* description; ///< one sentence
     const char* room;        ///< binary glTF file, relative to the folder of rooms
     /// Adds the camera kLensCamera, laid out for an exposure of kExposureSeconds that ends at time
-    /// 0, and what the shot has beside the room.
+    /// 0, and the shot's objects besides the room.
     void (*furnish)(GltfWriter& writer);
 };
 

@@ -71,7 +71,7 @@ roundedBox(glm::vec3 halfExtents, float radius, int cornerSteps, float tileMetre
 [[nodiscard]] Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize);
 
 /// A round rod along `path` (at least two points, no two neighbours alike), both ends closed.
-/// \param radii metres, one a point; 0 at an end makes it a tip
+/// \param radii metres, one per point; 0 at an end makes it a tip
 [[nodiscard]] Shape
 tube(std::span<const glm::vec3> path, std::span<const float> radii, int segmentCount);
 

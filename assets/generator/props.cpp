@@ -104,7 +104,7 @@ Shape pinwheel(float radius, int bladeCount) {
 
 Shape coilWithRing() {
     Shape shape = tube(helix(0.17f, 0.42f, 4.0f, 160), 0.022f, 14);
-    // The ring stands upright, reaches out of the coil and hangs in two of its turns.
+    // The ring is upright, reaches out of the coil and hangs in two of its turns.
     const mat4 upright = glm::rotate(moved({0.16f, 0.02f, 0.0f}), glm::half_pi<float>(), kX);
     append(shape, torus(0.14f, 0.018f, 56, 12), upright);
     return shape;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Things that the hard cases move or stand about, in metres, each about a pivot in its middle
-// unless said otherwise.
+// Objects of the hard cases, in metres, each with its pivot in its middle unless noted otherwise.
 #pragma once
 
 #include "assets/generator/mesh_shapes.h"
@@ -30,7 +29,7 @@ struct Glider {
 /// A frame of bars in the XY plane with a grid of wires in it. \param wireRadius metres
 [[nodiscard]] Shape wireGate(glm::vec2 halfExtents, float wireRadius, glm::ivec2 wireCount);
 
-/// A clump of bent, pointed blades; the pivot is on the ground. \param seed tells clumps apart
+/// A clump of bent, pointed blades; the pivot is on the ground. \param seed makes clumps differ
 [[nodiscard]] Shape grassClump(int bladeCount, float height, int seed);
 
 /// A bicycle with a large wheel (radius 0.60 m) at the origin and a small one (radius 0.19 m)

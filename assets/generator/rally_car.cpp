@@ -18,8 +18,7 @@ namespace shutter::generator {
 
 namespace {
 
-/// What turns and what only looks so: a plain tyre is the same however far it has rolled, so that
-/// it need not move at all.
+/// Meshes that turn, and ones that need not: a plain tyre looks the same at any rotation.
 struct WheelMeshes {
     Index tyre = kNothing;
     Index spokes = kNothing;

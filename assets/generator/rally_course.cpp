@@ -43,7 +43,7 @@ vec2 gateAt(int index) {
     return kGates[static_cast<size_t>(((index % count) + count) % count)];
 }
 
-/// A strip beside the centre line, flat. \param from, to metres to the right
+/// A flat strip along the centre line. \param from, to metres to the right
 Shape strip(float from, float to, float height, float tileMetres) {
     constexpr int kStepsPerGate = 14;
     Shape shape;

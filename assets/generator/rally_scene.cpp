@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands along the way of the rally.
+// Objects along the rally's road.
 #include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
@@ -70,7 +70,7 @@ void addGrandstand(RallyLand& land) {
     constexpr int kRows = 5;
     constexpr int kColours = 4;
     constexpr float kHalfLength = 11.0f;
-    const vec3 foot(-9.2f, 0.0f, -22.0f); // of its front, beside the road
+    const vec3 foot(-9.2f, 0.0f, -22.0f); // of its front, next to the road
     land.spectators.resize(kColours);
     Shape person = cylinder(0.17f, 0.52f, 6);
     append(person, sphere(0.12f, 6, 4), moved({0.0f, 0.38f, 0.0f}));
@@ -139,7 +139,7 @@ void addPostsAndFences(GltfWriter& writer, RallyLand& land) {
     const auto addFence = [&](const CoursePoint& point, float side) {
         const vec2 right(-point.direction.y, point.direction.x);
         const vec2 place = point.place + right * (side * kFenceDistance);
-        // Its front, the rails' side, looks at the road.
+        // Its front, the rails' side, faces the road.
         const vec2 front = right * -side;
         const vec3 foot(place.x, 0.0f, place.y);
         const glm::quat turn = glm::angleAxis(std::atan2(front.x, front.y), kY);
@@ -172,7 +172,7 @@ void addPostsAndFences(GltfWriter& writer, RallyLand& land) {
     for (int i = 0; i < kStepsPerGate * static_cast<int>(listCourseGates().size()); ++i) {
         const CoursePoint point = findCoursePoint(static_cast<float>(i) / kStepsPerGate);
         const float outer = point.curvature > 0.0f ? -1.0f : 1.0f;
-        // Measured where the fence stands: on the outer side the way is longer.
+        // Measured at the fence: on the outer side the curve is longer.
         const float stretch = 1.0f + std::abs(point.curvature) * kFenceDistance;
         sinceFence += glm::distance(point.place, before) * stretch;
         sincePost += glm::distance(point.place, before);

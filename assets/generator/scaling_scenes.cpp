@@ -246,7 +246,7 @@ GltfWriter buildTrianglesScene(int count) {
     count = std::clamp(count, kMinTriangleCount, kMaxTriangleCount);
     GltfWriter writer("triangles");
     addStage(writer);
-    // Half in the mover, 4 r (r - 1); the relief takes what is left, 2 a cell.
+    // Half in the mover, 4 r (r - 1); the relief takes the rest, 2 per cell.
     const int ringCount = static_cast<int>(std::lround(std::sqrt(count / 8.0 + 0.25) + 0.5));
     const int left = count - 4 * ringCount * (ringCount - 1);
     const vec2 half = halfView(kWallDepth) * 1.15f;
@@ -290,7 +290,7 @@ GltfWriter buildMovingShareScene(float share) {
     for (int i = 0; i < kColumns * kRows; ++i) {
         const int column = i % kColumns;
         const int row = i / kColumns;
-        // Each stands elsewhere in its cell, so that rounding to pixels evens out.
+        // Each has another place in its cell, so that rounding to pixels averages out.
         const float slack = (1.0f - share) * (hash(column, row, 11) - 0.5f);
         const vec2 place = -half + cell * (vec2(column, row) + vec2(0.5f + slack, 0.5f));
         writer.addNode(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Scenes with one parameter each, for curves of cost. In all of them only that parameter changes:
-// camera `main` is static, no clip plays but the crowd's, movers have velocities and stand where
-// they are meant to at time 0; exposure 1/60 s, phase `end`. Resolution and exposure need no scene
-// of their own: the vase scene is the base of those curves.
+// camera `main` is static, no clip plays but the crowd's, movers have velocities and are at their
+// place at time 0; exposure 1/60 s, phase `end`. Resolution and exposure need no separate scene:
+// the vase scene is the base of those curves.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -30,10 +30,10 @@ inline constexpr int kMaxTriangleCount = 1'000'000;
 
 inline constexpr int kMaxBodyCount = 200;
 
-/// `count` persons of two skinned meshes walk before a wall, each at a place of its own in its
-/// stride, by 6 to 10 px at 1280x720. The more they are, the farther away the picture shows them:
-/// together they hide about the same share of it. \param walk false: all stand \param count clamped
-/// to [0, kMaxBodyCount]
+/// `count` persons of two skinned meshes walk before a wall, each in another phase of its stride,
+/// by 6 to 10 px at 1280x720. The more they are, the farther away the picture shows them: together
+/// they hide about the same share of it. \param walk false: all are static \param count clamped to
+/// [0, kMaxBodyCount]
 [[nodiscard]] GltfWriter buildCrowdScene(int count, bool walk);
 [[nodiscard]] GltfWriter buildCrowdScene(int count);
 

@@ -15,11 +15,11 @@ namespace shutter::generator {
 inline constexpr float kExposureSeconds = 1.0f / 60.0f;
 inline constexpr glm::vec2 kPictureSizePx{1280.0f, 720.0f};
 
-/// A pinhole camera; looks down -Z of its rotation.
+/// A pinhole camera, with -Z of its rotation forward.
 struct Shot {
     glm::vec3 position{0.0f};                 ///< metres
     float yaw = 0.0f;                         ///< radians about +Y, applied after pitch
-    float pitch = 0.0f;                       ///< radians about +X, negative looks down
+    float pitch = 0.0f;                       ///< radians about +X, negative: downwards
     float yFov = 0.6f;                        ///< radians
     glm::vec2 pictureSizePx = kPictureSizePx; ///< in whose pixels places and motions are given
 

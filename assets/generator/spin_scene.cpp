@@ -21,7 +21,7 @@ namespace {
 constexpr int kSeatCount = 8;
 constexpr float kSeatRadius = 2.3f;
 
-/// A hobby horse that looks along +X, about the middle of its trunk, with its pole.
+/// A hobby horse facing +X, about the middle of its trunk, with its pole.
 struct Horse {
     Shape coat;
     Shape tack; ///< saddle and pole

@@ -27,7 +27,7 @@ struct SquareProps {
     Shape boothRoof;
 };
 
-/// Its seat looks along +Z.
+/// Its seat faces +Z.
 void addBench(SquareProps& props, const mat4& at) {
     for (int i = 0; i < 3; ++i) {
         const float step = static_cast<float>(i);

@@ -21,7 +21,7 @@ const Shot kShot{
     .yFov = 0.6f,
 };
 
-constexpr vec2 kVasePx{604.0f, 352.0f}; ///< where the vase's middle stands at time 0
+constexpr vec2 kVasePx{604.0f, 352.0f}; ///< the vase's middle at time 0
 constexpr float kVaseDepth = 2.2f;      ///< metres; at least 0.5 in front of the sofa
 constexpr vec2 kVaseMotionPx{38.0f, 14.0f};
 

@@ -50,7 +50,7 @@ struct Flythrough {
     core::FrameRate fps; ///< frames per second, (0, 1000]
     scene::PathInterpolation interpolation = scene::PathInterpolation::CatmullRom;
     scene::PathEase ease = scene::PathEase::None;
-    math::dvec3 up{0.0, 1.0, 0.0};   ///< up direction where keys look at a point
+    math::dvec3 up{0.0, 1.0, 0.0};   ///< up direction for keys with lookAt
     std::vector<FlythroughKey> keys; ///< 1 to 100000, at increasing times
 };
 

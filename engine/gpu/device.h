@@ -77,8 +77,8 @@ struct HostDevice {
     /// The feature subgroupSizeControl is enabled: pipelines get the subgroup sizes that they
     /// request.
     bool controlsSubgroupSize = false;
-    /// Where pipelines are looked up and kept; null: in an internal one that is not stored on disk.
-    /// Other threads may use it meanwhile, unless it was made to be synchronized by its users.
+    /// Pipeline cache; null: in an internal one that is not stored on disk. Other threads may use
+    /// it concurrently, unless it is externally synchronized.
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 

@@ -15,7 +15,7 @@ namespace shutter::io {
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
 /// Bytes of a data URI (RFC 2397), base64 (the URL-safe alphabet as well, padding may lack) or
-/// percent-encoded; the media type is ignored. An Error names what is malformed.
+/// percent-encoded; the media type is ignored. Error: names the malformed part.
 [[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
 
 /// Which files a file may name.

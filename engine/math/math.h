@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GLM, set up once for the whole engine. Conventions:
-//   - right-handed world, metres, +Y up; a camera looks down its own -Z (as in glTF);
+//   - right-handed world, metres, +Y up; a camera's forward axis is its own -Z (as in glTF);
 //   - matrices are column-major and named by spaces: clipFromView * viewPoint = clipPoint;
 //   - world transforms are double precision, GPU data is single precision and relative to the
 //     camera, so that a scene far from the origin loses nothing;

@@ -63,8 +63,8 @@ struct RenderOptions {
 /// Checks before hours of rendering whether out and stats can be written. Error: names the option.
 [[nodiscard]] core::Status checkOutputs(const RenderOptions& options);
 
-/// The file of one frame. In the pattern's own name, not in those of its folders, every %04d (any
-/// width up to 99) stands for the frame's number and %% for one %; any other % is copied.
+/// The file of one frame. In the pattern's file name, not in its folders, every %04d (any width up
+/// to 99) becomes the frame's number and %% one %; any other % is copied.
 [[nodiscard]] std::filesystem::path
 frameFile(const std::filesystem::path& pattern, int frameNumber);
 

@@ -48,7 +48,8 @@ enum class InstantNoise : uint8_t {
 };
 
 /// Defaults are what measures best; paperSettings() are the publication's. settings.cpp lists
-/// ranges and units, each method's file which fields it reads, modules/motion_blur/settings.md what each costs.
+/// ranges and units, each method's file which fields it reads, modules/motion_blur/settings.md what
+/// each costs.
 struct MotionBlurSettings {
     const Method* method = nullptr;  ///< methods.h; null: getDefaultMethod()
     uint32_t tileSizePx = 0;         ///< m; also the longest blur; 0: chooseTileSize()

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
 # Adds a distribution's backports from the mirror that apt is configured with. Sourced by
-# scripts/setup.sh beside packages.sh.
+# scripts/setup.sh, with packages.sh.
 
 # The archive that the distribution itself is taken from, as "address suite": the entry of apt's own
 # configuration whose release file says Debian and carries the code name $1. Third parties use the
@@ -20,8 +20,8 @@ distribution_archive() {
             }'
 }
 
-# Rewrites the one-line entry of file $1 that names archive $2 and suite $3 to suite $4, main;
-# whatever stands in its brackets (signed-by, trusted, arch) stays. Prints nothing if there is none.
+# Rewrites the one-line entry of file $1 that names archive $2 and suite $3 to suite $4, main; the
+# options in its brackets (signed-by, trusted, arch) are preserved. Prints nothing if there is none.
 rewrite_line() {
     awk -v uri="$2" -v suite="$3" -v wanted="$4" '
         { sub(/#.*/, "") }

@@ -17,10 +17,10 @@ find_lavapipe() {
     return 1
 }
 
-# Exports the two names under which old and new Vulkan loaders look for a driver. A choice that the
-# caller made stays, so that the tests can be pointed at another device. Names Mesa's folder of compiled
-# shaders, too: a test that has a home or a folder of caches of its own would compile each shader anew,
-# which takes lavapipe six times as long as the rest of a small picture.
+# Exports the two names under which old and new Vulkan loaders search a driver. A choice that the
+# caller made stays, so that the tests can be pointed at another device. Names Mesa's folder of
+# compiled shaders, too: a test that has a home or a folder of caches of its own would compile each
+# shader again, which takes lavapipe six times as long as the rest of a small picture.
 force_lavapipe() {
     local chosen=${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}
     if [[ -n $chosen ]]; then

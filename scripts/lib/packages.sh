@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
 # Installs the packages that the build needs and that are missing. Sourced by scripts/setup.sh, with
-# backports.sh and llvm_tools.sh beside it.
+# backports.sh and llvm_tools.sh.
 
 # Debian 12, Debian 13 and Ubuntu 24.04 share these names. openimageio-tools and libopencv-core-dev
 # are here because OpenImageIO's CMake files refer to /usr/bin/iconvert and /usr/include/opencv4 and
@@ -37,7 +37,7 @@ short_version() {
     printf '%s' "${version%%-*}"
 }
 
-# Prints those of its arguments that are not installed, one a line.
+# Prints those of its arguments that are not installed, one per line.
 missing_packages() {
     local name state
     for name in "$@"; do
@@ -121,7 +121,7 @@ install_mesa() {
         "methods that trace rays will need a GPU"
 }
 
-# Installs what tests/gpu_static need beside Mesa, where apt has it.
+# Installs the requirements of tests/gpu_static besides Mesa, where apt has it.
 install_shim() {
     local version
     version=$(candidate_version "$shim_package")
@@ -152,9 +152,9 @@ go_on_with_tools_found() {
     say "the tools are there; going on"
 }
 
-# Installs what is missing of the packages above: with "with-tests" as $1, of those for the tests as
-# well; with "with-checks" as $2, of those for the checks where the distribution has them.
-# Without anything missing this reads the package database and nothing else.
+# Installs missing packages of those above: with "with-tests" as $1, of those for the tests as well;
+# with "with-checks" as $2, of those for the checks where the distribution has them. Without
+# anything missing this reads the package database and nothing else.
 ensure_packages() {
     local wanted=("${build_packages[@]}") missing old_mesa=no shim=no
     local ID='' VERSION_ID='' VERSION_CODENAME='' PRETTY_NAME=''

@@ -110,7 +110,7 @@ PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool stan
         farthest = max(farthest, off);
     }
     if (!map.isAffine) return map;
-    // What is static is no candidate: it may hide some of what moves.
+    // Static surfaces are not candidates: they may hide parts of movers.
     map.isAffine = (!standsStill || showsKey(block, key)) && isWithin(map, farthest, key) &&
                    seesOneMotion(map, farthest, key, s, block);
     return map;

@@ -47,7 +47,7 @@ class Creations(FaultCase):
         return set(made)
 
     def test_each_kind_of_object_of_a_frame(self):
-        # Validation tells what was not destroyed before its device.
+        # Validation reports objects that were not destroyed before their device.
         made = self.fail_each(self.render("--out", "a.png", "--validate"), KINDS_OF_A_FRAME)
         self.assertEqual(made, KINDS_OF_A_FRAME)
 

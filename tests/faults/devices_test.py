@@ -148,7 +148,7 @@ class Devices(FaultCase):
         return sorted(glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json"))
 
     def test_without_a_loader_each_command_names_its_package(self):
-        # A library that is none stands for one that is missing, which needs no change of the system.
+        # An invalid library simulates a missing one, which needs no change of the system.
         libraries = self.folder / "libraries"
         libraries.mkdir()
         (libraries / "libvulkan.so.1").write_text("none\n", encoding="utf-8")

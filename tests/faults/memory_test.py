@@ -8,7 +8,7 @@ from fault_case import FaultCase
 
 class Memory(FaultCase):
     def test_each_allocation_that_fails_is_told_in_one_sentence_and_leaves_nothing(self):
-        # Validation tells what was not destroyed before its device.
+        # Validation reports objects that were not destroyed before their device.
         frame = self.render("--out", "a.png", "--validate")
         count = self.count_calls(frame)["allocations"]
         self.assertGreater(count, 40)

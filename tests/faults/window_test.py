@@ -56,7 +56,7 @@ class Window(FaultCase):
                 self.expect_sentence(self.play({kind: middle}), "the device was lost")
 
     def test_a_swapchain_that_cannot_be_made_is_told(self):
-        # The first one, and one that is made anew for a window that has changed.
+        # The first one, and one that is recreated for a changed window.
         for number in (1, 2):
             with self.subTest(swapchain=number):
                 result = self.play({"creation": f"CreateSwapchainKHR={number}",

@@ -15,8 +15,8 @@ PINS = pathlib.Path(__file__).with_name("pins")
 # One card of each generation, as the kernel's stand-in calls them.
 FAMILIES = {"rdna2": "navi21", "rdna3": "navi31"}
 SAMPLES = {"accumulate": "2", "truth": "1"}
-# What no method makes by itself: other rays, settings and effects, what deforms (the runner and his
-# window in `gallery`), and what is masked, of glass and emits particles (drift.gltf).
+# Pipelines that no method makes by itself: other rays, settings and effects, deforming meshes (the
+# runner and his window in `gallery`), and alpha masks, glass and particles (drift.gltf).
 VARIANTS = (
     ("vase", "--method", "hybrid", "--rays", "pipeline", "--response", "triangle"),
     ("vase", "--method", "hybrid", "--aov", "all", "--set", "rayShare=0.25"),
@@ -105,7 +105,7 @@ class Machine:
         self.environment = {
             **own, "LD_PRELOAD": shim, "AMDGPU_GPU_ID": FAMILIES[family], "VK_DRIVER_FILES": driver,
             "VK_ICD_FILENAMES": driver,
-            # Validation stands above our layer, which keeps submissions from the driver: old loaders
+            # Validation is above our layer, which keeps submissions from the driver: old loaders
             # order layers by the folders, newer ones by the names.
             "VK_LAYER_PATH": f"{pathlib.Path(validation).parent}:{layer}",
             "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation:VK_LAYER_SHUTTER_statistics",
@@ -127,7 +127,7 @@ class Machine:
         path = own if own.exists() else f"{self.assets}/{scene}.glb"
         done = self.call("render", path, "--size", "64x36", "--out", "picture.exr", "--validate",
                          *options, **more)
-        # The stand-in itself tells what of the kernel it lacks.
+        # The stand-in itself prints the kernel features that it lacks.
         messages = [line for line in done.stderr.splitlines() if not line.startswith("DRM_IOCTL_")]
         return Run((scene, *options), done.returncode, "\n".join(messages))
 

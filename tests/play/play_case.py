@@ -13,7 +13,7 @@ import unittest
 EXECUTABLE = os.environ["SHUTTER_EXECUTABLE"]
 ASSETS = os.environ["SHUTTER_ASSETS"]
 FRAME_SECONDS = 1 / 30
-# Tests of the blur switch off what is beside it; frames of a still scene are equal then.
+# Tests of the blur switch off the other effects; frames of a static scene are then equal.
 NO_EFFECTS = {"antiAliasing": "none", "shadows": "none", "bloomShare": 0}
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))

@@ -72,7 +72,7 @@ class Session(PlayCase):
             stats = self.play("rally", script, "--method", method, size="320x180", display=False,
                               budget={"milliseconds": milliseconds})
             picture = skimage.io.imread(self.folder / f"{name}.png")
-            # Beside the lines of the head-up display, which tell the budget.
+            # Next to the lines of the head-up display, which show the budget.
             return picture[75:122, :40].astype(float), stats["reducedFrames"]
 
         sharp, _ = drive_and_shoot("sharp", "sharp", "unlimited")
@@ -105,7 +105,7 @@ class Session(PlayCase):
         photo = skimage.io.imread(photos[0])
         shown = skimage.io.imread(self.folder / "over.png")
         self.assertEqual(photo.shape, shown.shape)
-        # The head-up display's ground darkens the corner of what is shown alone.
+        # The head-up display's background darkens only the corner of the shown picture.
         self.assertGreater(photo[4:20, 4:20].mean(), shown[4:20, 4:20].mean() + 20)
 
     def test_the_camera_of_a_photo_flies_while_the_game_rests(self):
@@ -240,8 +240,7 @@ class Effects(PlayCase):
                 self.assertNotEqual(alone & passes, set())
                 self.assertLessEqual(alone - bare, passes)
                 self.assertEqual(shoot(keys, "--sky", "0")[0], alone)
-        # A sky has no pass of its own.
-        # Beside and below the head-up display, which tells times.
+        # A sky has no separate pass. Next to and below the head-up display, which shows times.
         with_sky, without, by_option = (
             shoot(keys, *options)[1][74:, 70:]
             for keys, options in (("", ()), ("8", ()), ("", ("--sky", "0")))

@@ -41,7 +41,7 @@ def key(changes, index=0):
     return lambda f: f["keys"][index].update(changes)
 
 
-# What is wrong, and the field that the reader names. Both refuse these.
+# The fault, and the field that the reader names. Both refuse these.
 WRONG = [
     (lambda f: f.pop("version"), "version"),
     (lambda f: f.update(version=2), "version"),

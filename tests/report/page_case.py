@@ -58,7 +58,7 @@ class PageCase(unittest.TestCase):
             for suite in example_results.SUITES:
                 cls.results[suite] = example_results.write(suite, cls.folder / suite)
                 subprocess.run([MAKE_PAGE, cls.folder / suite], check=True)
-                # The page has to stand alone.
+                # The page must be self-contained.
                 (cls.folder / suite / "results.json").unlink()
                 shutil.rmtree(cls.folder / suite / "images")
                 shutil.rmtree(cls.folder / suite / "films", ignore_errors=True)

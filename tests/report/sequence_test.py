@@ -94,7 +94,8 @@ class Sequence(PageCase):
         self.assertGreater(len({round(left) for left, _ in seen}), 6)
 
     def test_a_frame_is_shown_once_both_films_have_put_it_on_the_screen(self):
-        # What each film presents is noted before the page looks, since the page registers later.
+        # Frames that films present are recorded before the page's handler runs, since the page
+        # registers later.
         self.js("""
             window.seen = [];
             const rate = %d;

@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontrol", "sinfo")
-# Debian puts daemons where only root looks.
+# Debian puts daemons in folders that are on root's PATH only.
 SEARCHED = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
 LONGEST_WAIT_S = 120
 

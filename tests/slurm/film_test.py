@@ -47,7 +47,7 @@ class Films(SlurmCase):
         self.wait_for_part("a part on node2", process,
                            lambda: self.find_running_part("node2", work))
         self.cluster.kill_node("node2")
-        # Where it stopped: what is complete is not drawn again.
+        # Resumes: complete frames are not drawn again.
         kept = {path: path.stat().st_mtime_ns for path in work.glob("frame_*.png")}
         try:
             slurm.wait_for("the part that lost its node",
@@ -87,7 +87,7 @@ class Films(SlurmCase):
         self.assertEqual(err.count("\n"), 1, err)
         self.assertRegex(err, "the film is not finished: part [1-4] says: .* were drawn otherwise")
         self.assertFalse((self.folder / "refused.mp4").exists())
-        # What is left can be drawn once that is set right, by whatever draws it.
+        # The remaining frames can be drawn by any process once that is fixed.
         other.unlink()
         self.finish(self.start([*film, "--wait"]))
         self.assertTrue((self.folder / "refused.mp4").exists())

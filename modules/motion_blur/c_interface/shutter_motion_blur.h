@@ -80,8 +80,8 @@ SHUTTER_BLUR_API const char* shutterBlurGetMessage(void);
  * extension. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurAddFeatures(VkPhysicalDeviceFeatures2* features);
 
-/* Error, with a message that names what is missing: the device cannot do that, or the queue family
- * has no compute shaders. */
+/* Error, with a message that names the missing feature: the device cannot do that, or the queue
+ * family has no compute shaders. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t queueFamily);
 

@@ -23,8 +23,8 @@ namespace shutter::motion_blur {
 [[nodiscard]] bool enablesSubgroupSizes(const VkPhysicalDeviceFeatures2& enabled);
 
 /// Checks that the device supports the features and that the queue family has compute shaders.
-/// Error: one sentence that names what is missing. Vulkan has no query for enabled features; the
-/// validation layer and checkEnabledFeatures() check those.
+/// Error: one sentence that names the missing feature. Vulkan has no query for enabled features;
+/// the validation layer and checkEnabledFeatures() check those.
 [[nodiscard]] core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily);
 
 } // namespace shutter::motion_blur
