@@ -248,7 +248,7 @@ TEST_F(BenchCommand, GoesOnWhereItWasStopped) {
     const json after = json::parse(readFile("report/journal/vase.json"));
     EXPECT_EQ(after.at("records").at("sharp/0").at("picture"), kept.at("picture"));
     EXPECT_TRUE(readResults().at("complete"));
-    // A third run measures nothing: the same times stand in its results.
+    // A third run measures nothing: its results have the same times.
     const json twice = readResults().at("cases");
     expectSuccess(benchPaper({}));
     EXPECT_EQ(readResults().at("cases"), twice);

@@ -136,7 +136,7 @@ void Cli::isolateProgram() {
 void Cli::requirePermissions() {
     if (geteuid() != 0)
         return;
-    // What lets root pass over permissions is a capability, not its user id.
+    // Root bypasses permissions by a capability, not by its user id.
     const Arguments held = {"setpriv", "--bounding-set=-dac_override,-dac_read_search"};
     const Arguments program = std::exchange(mProgram, held);
     const bool canHold = run({"true"}).status == 0;

@@ -21,7 +21,7 @@ struct Outcome {
     std::string err;
 };
 
-/// Each test has a folder of its own, in which the program runs and whose every file is known.
+/// Each test has a separate folder, in which the program runs and all of whose files are known.
 class Cli : public testing::Test {
   protected:
     Cli();
@@ -29,7 +29,7 @@ class Cli : public testing::Test {
 
     [[nodiscard]] Outcome run(const Arguments& arguments) const;
 
-    /// Starts the program and returns at once; whoever starts it waits for it.
+    /// Starts the program and returns at once; the caller must wait for it.
     [[nodiscard]] pid_t start(const Arguments& arguments) const;
 
     /// Waits for the process that start() started last.

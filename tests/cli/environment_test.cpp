@@ -65,7 +65,7 @@ TEST_F(Cli, AnEnvironmentThatIsPartOfAPictureOrNoColourIsRefused) {
 
 TEST_F(Cli, AnEnvironmentIsItsDisplayWindowAndTellsOfChannelsItLeavesOut) {
     requireDevice();
-    // A bright frame of a pixel around a grey picture, beside the display window.
+    // A bright frame of a pixel around a grey picture, outside of the display window.
     image::Image picture(66, 34, 4);
     for (uint32_t y = 0; y < 34; ++y)
         for (uint32_t x = 0; x < 66; ++x)

@@ -11,7 +11,7 @@
 
 namespace shutter::cli {
 
-/// Programs of Slurm, first on PATH, that write down in the file `said` what they are told.
+/// Programs of Slurm, first on PATH, that record their arguments in the file `said`.
 class FakeSlurm {
   public:
     explicit FakeSlurm(std::filesystem::path folder) : mFolder(std::move(folder)) {

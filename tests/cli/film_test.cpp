@@ -79,7 +79,7 @@ class Film : public Cli {
     }
 
     /// Starts the film `out` in one part and kills the process that draws it after two frames.
-    /// \return what the film's own process said
+    /// \return the output of the film's own process
     Outcome killPart(const std::string& folder, const Arguments& film) const {
         const FolderWatch watch(path(folder));
         const pid_t process = start(film);
@@ -114,7 +114,7 @@ TEST_F(Film, ByPartsIsTheFilmOfOneProcess) {
     const std::string said = expectSuccess(one).out;
     for (const char* work : {"blended instants", "particles live in its exposure"})
         EXPECT_NE(said.find(work), std::string::npos) << said;
-    // Nothing of the parts is left, and both commands know what is complete.
+    // Nothing of the parts is left, and both commands know the complete frames.
     EXPECT_FALSE(fs::exists(path("parts.mp4.parts")));
     for (const std::string& file : listFiles())
         EXPECT_EQ(file.find(".part_"), std::string::npos) << file;
@@ -174,7 +174,7 @@ TEST_F(Film, PartsOfAnotherNumberTakeOverWhatWasDrawn) {
     expectSuccess(draw("film", "parts/f_%d.exr", {"--jobs", "2", "--parts", "5"}));
     EXPECT_TRUE(readFrames("parts") == readFrames("whole"));
     EXPECT_TRUE(fs::last_write_time(path("parts/f_0.exr")) == before) << "it was drawn again";
-    // Anew, it is drawn by whatever draws it then.
+    // With --restart, any program and device may draw it.
     expectSuccess(draw("film", "parts/f_%d.exr", {"--unlit", "--restart"}));
     EXPECT_FALSE(fs::last_write_time(path("parts/f_0.exr")) == before);
 }
@@ -224,7 +224,7 @@ TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsAreTold) {
     }
     EXPECT_LT(said.find("\n--array=1-3\n"), second);
     EXPECT_NE(said.find("\n--dependency=afterok:7\n", second), std::string::npos);
-    // The jobs run what they are told to, whatever shell runs them.
+    // The jobs run the requested command in any shell.
     EXPECT_NE(
         said.find("'--out' 'it'\\''s f_%d.exr' '--device' 'llvmpipe'  --part "
                   "$SLURM_ARRAY_TASK_ID/3\n"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Killed in the middle of a sequence: what lies under a picture's name is a whole picture.
+// Killed in the middle of a sequence: every file with a picture's name is a complete picture.
 #include "engine/image/image.h"
 #include "engine/io/image_file.h"
 #include "tests/cli/cli_fixture.h"

@@ -205,13 +205,13 @@ TEST_F(Sequence, AFlythroughRenderedTwiceIsTheSameAndTheSecondTimeInOneFolderSki
 
     const Arguments again = fly({"--method", "hybrid", "--aov", "motion", "--out", "a/f_%04d.png"});
     EXPECT_NE(expectSuccess(again).out.find("6 of 6 frames are complete"), std::string::npos);
-    // What is not what it was is drawn again, and nothing else.
+    // Only changed files are drawn again.
     writeFile("a/f_0000.png", "another picture");
     fs::remove(path("a/f_0001.motion.exr"));
     EXPECT_NE(expectSuccess(again).out.find("4 of 6 frames are complete"), std::string::npos);
     EXPECT_TRUE(readFrames("a") == frames);
     EXPECT_TRUE(readFile("a/f_0001.motion.exr") == readFile("b/f_0001.motion.exr"));
-    // Whoever asks about the drawing gets it.
+    // Options that report on drawing force it.
     Arguments measured = again;
     measured.insert(measured.end(), {"--stats", "s.json"});
     EXPECT_EQ(expectSuccess(measured).out, "");

@@ -12,8 +12,8 @@
 
 namespace shutter::erring {
 
-/// `exact` moved by -2 ... 2 units in the last place. Zero, NaN and infinity stay what they are,
-/// and so does what would become one.
+/// `exact` moved by -2 ... 2 units in the last place. Zero, NaN and infinity do not change, nor do
+/// values that would become one of them.
 inline float err(float exact) {
     if (exact == 0.0f || !std::isfinite(exact))
         return exact;
@@ -30,7 +30,7 @@ template <glm::length_t n> glm::vec<n, float> err(glm::vec<n, float> exact) {
     return exact;
 }
 
-/// Stands between two divisions: a / kErring / b is an erring a / b. Whole numbers divide exactly,
+/// Placed between two divisions: a / kErring / b is an erring a / b. Whole numbers divide exactly,
 /// and so do constants, which compilers fold.
 struct Division {};
 

@@ -46,10 +46,10 @@ void waitIfHeld(DeviceTable& table, std::span<const VkPipelineShaderStageCreateI
         return table.heldShaders.contains(reinterpret_cast<uint64_t>(stage.module));
     };
     if (std::any_of(stages.begin(), stages.end(), isHeld))
-        std::ifstream(FaultPlan::get().heldUntil); // opens once somebody writes
+        std::ifstream(FaultPlan::get().heldUntil); // opens once there is a writer
 }
 
-/// What is no pipeline is not held.
+/// Only pipelines are held.
 void hold(DeviceTable&, const auto&) {}
 
 void hold(DeviceTable& table, const VkComputePipelineCreateInfo* info) {
@@ -60,7 +60,7 @@ void hold(DeviceTable& table, const VkRayTracingPipelineCreateInfoKHR* info) {
     waitIfHeld(table, {info->pStages, info->stageCount});
 }
 
-/// Stands in for a function that makes something. Main memory is what any of them may lack.
+/// Replaces a function that creates an object. Any of them may run out of main memory.
 template <size_t index, auto next> struct Create;
 
 template <size_t index, class... Args, VkResult (VKAPI_PTR* DeviceTable::*next)(VkDevice, Args...)>

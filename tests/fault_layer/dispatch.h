@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands below the layer: the next layer, or the driver.
+// The functions below the layer: of the next layer, or the driver.
 #pragma once
 
 #include "tests/support/vulkan_layer.h"
@@ -105,7 +105,7 @@ struct DeviceTable {
     std::atomic<uint32_t> lateAcquisitionCount = 0; ///< while one was recorded
     std::atomic<uint32_t> presentationCount = 0;
     std::mutex hiddenMutex;
-    std::set<VkDeviceMemory> hiddenMemory; ///< memory of types that are said not to be visible
+    std::set<VkDeviceMemory> hiddenMemory; ///< memory of types that are reported as not visible
     std::mutex heldMutex;
     std::set<uint64_t> heldShaders; ///< modules of FaultPlan::heldPipeline
 };
@@ -121,7 +121,7 @@ DeviceTable& addDevice(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr);
 /// \param handle a device, or a queue or command buffer of it
 [[nodiscard]] DeviceTable& findDevice(const void* handle);
 
-// The functions that the layer stands in for, by what they fail at.
+// The functions that the layer replaces, by their fault.
 
 /// Other limits, features, extensions and types of memory.
 [[nodiscard]] std::span<const test::LayerEntry> listReports();
@@ -134,10 +134,10 @@ DeviceTable& addDevice(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr);
 /// The functions' names without "vk", in the order of DeviceTable::creationCounts.
 [[nodiscard]] std::span<const char* const> listCreationNames();
 
-/// Those that other files stand in for.
+/// Those replaced in other files.
 [[nodiscard]] std::span<const char* const> listOtherCreationNames();
 
-/// Submissions, and everything that tells of a lost device.
+/// Submissions, and every function that reports a lost device.
 [[nodiscard]] std::span<const test::LayerEntry> listLostDevice();
 
 /// Windows that change and go away.

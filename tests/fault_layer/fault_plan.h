@@ -22,7 +22,7 @@ struct FailingCalls {
     }
 };
 
-/// What the environment asks for; README.md lists the variables.
+/// The faults requested by environment variables; README.md lists them.
 struct FaultPlan {
     FailingCalls allocations;
     std::map<std::string, FailingCalls> creations; ///< by the function's name without "vk"
@@ -31,7 +31,7 @@ struct FaultPlan {
     uint32_t lostExecution = 0;                ///< 0: none; this one is taken and never ends well
     std::map<uint32_t, VkResult> acquisitions; ///< by the number of the call
     std::map<uint32_t, VkResult> presentations;
-    std::set<std::string> hidden; ///< extensions and features that are said to be missing
+    std::set<std::string> hidden; ///< extensions and features that are reported as missing
     std::map<std::string, uint32_t> limits;
     std::optional<VkPhysicalDeviceType> kind;       ///< none: the device's own
     std::vector<VkMemoryPropertyFlags> memoryTypes; ///< empty: the device's own
@@ -39,7 +39,7 @@ struct FaultPlan {
     uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`
     uint32_t fileBytes = 0;
     std::string heldPipeline; ///< name of shaders; pipelines of these wait; empty: none
-    std::string heldUntil;    ///< FIFO that somebody opens for writing
+    std::string heldUntil;    ///< FIFO that a test opens for writing
 
     /// Whether the `number`th call of a function that makes something fails.
     [[nodiscard]] bool failsCreation(const std::string& name, uint32_t number) const {
@@ -50,8 +50,7 @@ struct FaultPlan {
     /// What readAnew() read last.
     [[nodiscard]] static const FaultPlan& get();
 
-    /// For a new instance. What cannot be understood ends the process: a test that asks for nothing
-    /// would pass.
+    /// For a new instance. Invalid values end the process: a test without faults would pass.
     static void readAnew();
 };
 

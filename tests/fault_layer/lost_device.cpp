@@ -9,14 +9,14 @@ namespace shutter::faults {
 
 namespace {
 
-/// Nothing runs any more once a device is lost, so what it was given is let end first: whoever
-/// hears of the loss may destroy everything.
+/// Nothing runs any more once a device is lost, so earlier submissions complete first: callers may
+/// destroy everything after the loss.
 VkResult answerLost(const DeviceTable& table) {
     table.DeviceWaitIdle(table.device);
     return VK_ERROR_DEVICE_LOST;
 }
 
-/// Stands in for a function of a device or queue that tells of the loss.
+/// Replaces a function of a device or queue that reports the loss.
 template <auto next> struct UnlessLost;
 
 template <class Handle, class... Args, VkResult (VKAPI_PTR* DeviceTable::*next)(Handle, Args...)>
@@ -27,8 +27,8 @@ struct UnlessLost<next> {
     }
 };
 
-/// From here on a file that grows too large is a full disk to whoever ignores SIGXFSZ, and death in
-/// the middle of a write to others. Not from the start: drivers keep files of their own in memory.
+/// From here on a file that grows too large is a full disk to programs that ignore SIGXFSZ, and
+/// death in the middle of a write to others. Not from the start: drivers have files in memory.
 void limitFiles() {
     const rlim_t bytes = FaultPlan::get().fileBytes;
     const rlimit limit{bytes, bytes};

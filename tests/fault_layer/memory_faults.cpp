@@ -79,7 +79,7 @@ void reportTypes(VkMemoryRequirements& needs) {
     needs.memoryTypeBits = count == 32 ? UINT32_MAX : (1u << count) - 1;
 }
 
-/// Stands in for a function that says which types of memory an object can lie in.
+/// Replaces a function that returns an object's allowed memory types.
 template <auto next> struct AskNeeds;
 
 template <

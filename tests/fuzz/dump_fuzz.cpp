@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
     for (const auto& [name, image] : frame.value().images)
         SHUTTER_CHECK(image.file.find('/') == std::string::npos, "'{}' leaves the folder", name);
-    // None of what it names is there.
+    // None of the files that it names exist.
     SHUTTER_CHECK(
         !replay::readDumpTexels("/nonexistent", frame.value()).ok(), "texels were read of nowhere"
     );

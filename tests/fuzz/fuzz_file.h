@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the fuzzers share: readers take paths, and tell what is wrong in one sentence.
+// Shared by the fuzzers: readers take paths, and report errors in one sentence.
 #pragma once
 
 #include "engine/core/check.h"

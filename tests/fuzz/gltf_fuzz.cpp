@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loads a scene, and poses what it draws.
+// Loads a scene, and poses its entities.
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"

@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto unpacked = gpu::unpackPipelineCache({data, size}, owner);
     if (unpacked && unpacked.value())
         SHUTTER_CHECK(unpacked.value()->size() < size, "{} bytes", unpacked.value()->size());
-    // What no checksum stops reaches the driver only if it is one of its own.
+    // A file with a valid checksum reaches the driver only if that driver wrote it.
     const auto file = gpu::packPipelineCache({data, size});
     const auto again = gpu::unpackPipelineCache(file, owner);
     SHUTTER_CHECK(again.ok(), "what was packed is refused");

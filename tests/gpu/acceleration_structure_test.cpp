@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Builds of bottom and top levels from nothing, one triangle, and triangles without area. That rays
-// meet what was built is for the reveal's laws (tests/image) to show.
+// Builds of bottom and top levels from nothing, one triangle, and triangles without area. The
+// reveal's laws (tests/image) check that rays hit them.
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/structure_set.h"
@@ -30,7 +30,7 @@ class AccelerationStructure : public test::GpuTest {
     }
 };
 
-/// Positions on the device, three a triangle.
+/// Positions on the device, three per triangle.
 struct Triangles {
     gpu::Buffer vertices;
     gpu::Buffer indices;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A host's rays for the samples of `adaptive`: with the engine's own tables of a scene, so that the
-// picture can be told from the engine's.
+// picture differs from the engine's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -368,8 +368,8 @@ TEST_F(BlockFilters, NoSeamShowsWhereUniformMotionMeetsMixed) {
 }
 
 TEST_F(BlockFilters, OverDepthStepsThatMoveAlikeTheUniformPathIsNearerToTheTruth) {
-    // Everything moves by 16 px to the right, whatever its depth: each pixel saw the mean of what
-    // lies 16 px before it.
+    // Everything moves by 16 px to the right at any depth: each pixel is the mean of the 16 px to
+    // its left.
     constexpr uint32_t kWide = 192;
     const Image color = makeNoise(kWide, 64);
     const Image motion = makeMotion(kWide, 64, [](uint32_t x, uint32_t) {
@@ -477,7 +477,7 @@ class Copies {
         const VkDeviceSize bytes = graph.resources()[source.resource].bufferDesc.bytes;
         const gpu::Buffer& target =
             mBuffers.emplace_back(mDevice, "copy", bytes, 0, gpu::MemoryUse::Readback);
-        mWordCounts.push_back(bytes / sizeof(uint32_t)); // a buffer may be larger than asked for
+        mWordCounts.push_back(bytes / sizeof(uint32_t)); // a buffer may be larger than requested
         const auto imported = graph.importBuffer("copy", target.handle(), bytes);
 
         struct Data {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What only the C interface has: versions, sizes of structures, chains of features, presets. Its
-// refusals are in embedded_refusals_test.cpp, its pictures beside those of the C++ interface.
+// Tests of the C interface alone: versions, sizes of structures, chains of features, presets. Its
+// refusals are in embedded_refusals_test.cpp, its pictures with those of the C++ interface.
 #include "engine/math/transform.h"
 #include "modules/motion_blur/c_interface/shutter_motion_blur.hpp"
 #include "modules/motion_blur/presets.h"

@@ -50,7 +50,7 @@ std::string makeKeys(const char* first, const char* second, const char* third) {
     );
 }
 
-/// A place beside the start of the rally's course.
+/// A place next to the start of the rally's course.
 /// \param along, right, up metres
 math::dvec3 besideTheRoad(double along, double right, double up) {
     const generator::CoursePoint start = generator::findCoursePoint(0.0f);
@@ -231,7 +231,7 @@ class CheckedImages {
     std::deque<Layered> mLayered;
 };
 
-/// What is where no picture is: 0xFF is NaN in floats, and an id that is no row.
+/// Contents outside of the picture: 0xFF is NaN in floats, and an invalid id.
 constexpr std::byte kRubbish{0xFF};
 constexpr VkOffset2D kMargin{24, 12};
 
@@ -520,7 +520,7 @@ std::vector<std::string> CheckerHost::check(const CheckCase& one) {
             GivenFrame given = give(int(frame), one, view);
             record(*blur, frame % 2 * one.viewCount + view, given);
         }
-    blur.reset(); // tells of the last ones
+    blur.reset(); // reports the last frames
     return told;
 }
 

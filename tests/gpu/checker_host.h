@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A host that draws a scene under a moving camera and hands it to the checker of inputs, in the
-// convention and with the mistake that a case says.
+// A host that draws a scene under a moving camera and passes it to the checker of inputs, with a
+// case's convention and mistake.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -26,7 +26,7 @@ struct CheckScene {
     generator::GltfWriter (*build)(); ///< null: a file of the shared scenes
     std::string path;                 ///< of that
     std::string keys;                 ///< of a flythrough
-    double orthographicYMag = 0.0;    ///< half height of what is seen, metres; 0: perspective
+    double orthographicYMag = 0.0;    ///< half height of the view, metres; 0: perspective
     /// Too much moves by itself for mistakes to be seen.
     bool hidesMistakes = false;
     void (*prepare)(scene::World& world) = nullptr; ///< moves what the file has at rest
@@ -57,7 +57,7 @@ struct CheckedDrawing {
     std::function<motion_blur::HostCameraKey(double share)> cameraAt;
 };
 
-/// What a host hands in, to be changed into what it gets wrong or has in another way.
+/// A host's inputs, to be changed to a mistake or another convention.
 struct GivenFrame : CheckedDrawing {
     int frame = 0;
     const CheckedDrawing* before = nullptr; ///< the frame before and the next one
@@ -82,7 +82,7 @@ struct GivenFrame : CheckedDrawing {
     bool isSurrounded = false; ///< each image is part of a larger one, with rubbish elsewhere
     /// Each image is a layer of two, with rubbish in the other; null: none is.
     std::optional<uint32_t> layer;
-    /// The picture is this part of what was drawn.
+    /// The picture is this part of the image.
     VkRect2D part{{0, 0}, {kCheckedWidth, kCheckedHeight}};
 };
 
@@ -118,7 +118,7 @@ void PrintTo(const CheckScene& scene, std::ostream* stream);
 
 /// Scenes under cameras that move and turn.
 [[nodiscard]] std::vector<CheckScene> listCheckScenes();
-/// What hosts get wrong, with part of the sentence that says so.
+/// Mistakes of hosts, with part of the reported sentence.
 [[nodiscard]] const std::vector<CheckCase>& listMistakes();
 /// What hosts may do; the first is the plainest.
 [[nodiscard]] const std::vector<CheckCase>& listRightHosts();
@@ -137,7 +137,7 @@ class CheckerHost : public EmbeddedTest, public testing::WithParamInterface<Chec
 
     [[nodiscard]] GivenFrame give(int frame, const CheckCase& one, uint32_t view = 0) const;
 
-    /// What the checker says of some frames.
+    /// Sentences of the checker for some frames.
     [[nodiscard]] std::vector<std::string> check(const CheckCase& one);
 
     /// \param number of the recording

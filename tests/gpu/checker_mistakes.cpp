@@ -206,7 +206,7 @@ void listKeys(Cases& add) {
         g.isResolved = true;
         g.inputs.rasterTime = 0.5;
         giveKeysAt(g, {0.0, 0.5});
-        // What lies ahead of the raster, as far as what lies before it.
+        // The same distance ahead of the raster as behind it.
         const dmat4 ahead = g.keys[1].viewFromWorld * glm::inverse(g.keys[0].viewFromWorld) *
                             g.keys[1].viewFromWorld;
         g.keys.push_back({1.0, g.keys[0].viewFromWorld, g.keys[0].clipFromView});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hosts may do: conventions, formats and places of images, and how they say what moves.
+// Valid hosts: conventions, formats and placement of images, and ways to describe motion.
 #include "tests/gpu/checker_host.h"
 
 namespace shutter::test {

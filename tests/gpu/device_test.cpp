@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which device is taken, what is said when there is none, what a device without rays refuses; and a
-// device of a host: what is retired waits for what the host says, and nothing of the host's goes.
+// Choice of a device, errors without one, refusals without rays; and adopted devices: retired
+// objects wait for the host's progress, and the host's own objects are never destroyed.
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
@@ -37,7 +37,7 @@ void expectMessage(const core::Result<gpu::DeviceInfo>& result, const std::strin
 
 TEST(DeviceChoice, WithoutAWishASoftwareDeviceComesLastWhateverItCan) {
     using gpu::RayTier;
-    // What Mesa's package puts beside the cards of a desktop or a data centre.
+    // Mesa's software device, next to the cards of a desktop or a data centre.
     const gpu::DeviceInfo lavapipe = makeInfo("llvmpipe (LLVM 19)", "software", RayTier::RayQuery);
     for (const gpu::DeviceInfo& card :
          {makeInfo("NVIDIA GeForce GTX 1050 (NVK GP107)", "discrete", RayTier::None),
@@ -137,8 +137,8 @@ TEST_F(Devices, AWishForOneThatIsNotThereIsAnError) {
     EXPECT_NE(opened.error().message.find(device().info().name), std::string::npos);
 }
 
-/// What a load past the end of a binding gives is Vulkan's own rule: lavapipe gives 0 on every
-/// device, so no picture here could tell them apart.
+/// Vulkan defines loads past the end of a binding: lavapipe returns 0 on every device, so no
+/// picture here could show a difference.
 TEST_F(Devices, AValidatedOneChecksBounds) {
     EXPECT_TRUE(device().checksBounds());
     gpu::DeviceOptions options;
@@ -194,7 +194,7 @@ TEST_F(AdoptedDevice, WhatIsRetiredWaitsForEverythingHandedOverUntilThen) {
     host->markDone(second);
     EXPECT_FALSE(destroyed) << "the first is not done";
     host->markDone(first);
-    host->markDone(first); // what is said twice or of nothing changes nothing
+    host->markDone(first); // repeated or unknown values change nothing
     EXPECT_TRUE(destroyed);
     EXPECT_EQ(host->completedValue(), second);
     host->markDone(second + 7);

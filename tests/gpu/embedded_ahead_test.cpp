@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a host learns and prepares before its frames, and what it is told after them: memory,
-// pipelines, times and counters, the budget.
+// Preparation before a host's frames and reports after them: memory, pipelines, times and counters,
+// the budget.
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
 
@@ -16,7 +16,7 @@ using motion_blur::HostInputs;
 using motion_blur::HostPlan;
 using motion_blur::MotionBlurSettings;
 
-/// Counts what the library asks the driver for while it lives: its functions are pointers.
+/// Counts the library's calls of a driver function while it lives: functions are pointers.
 template <auto pointer> class Asked;
 
 template <class... Args, VkResult(VKAPI_PTR** pointer)(Args...)> class Asked<pointer> {
@@ -89,7 +89,7 @@ struct Host : test::HostFrame {
     motion_blur::HostMover mover{0, {}};
 };
 
-/// Of a host that draws over the picture at instants, or hands in what it has drawn.
+/// Of a host that draws over the picture at instants, or passes its own drawing.
 constexpr const char* kDrawing = "resolved with draws";
 constexpr const char* kBlending = "gather with a layer";
 
@@ -257,7 +257,7 @@ TEST_F(EmbeddedAhead, ABudgetGivesUpQualityUntilItIsKept) {
         }
     }
     EXPECT_NE(gaveUp, "");
-    in.budget.milliseconds = 1e6; // a new budget begins anew
+    in.budget.milliseconds = 1e6; // a new budget restarts
     ASSERT_TRUE(draw(*blur, host, 0, in, settingsOf("resolved")).ok());
     EXPECT_EQ(blur->report(0).value().gaveUp, "");
 }

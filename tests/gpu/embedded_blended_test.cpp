@@ -55,11 +55,11 @@ bool isSquare(uint32_t x, uint32_t y, double time) {
 vec4 colorAt(uint32_t x, uint32_t y, double time) {
     if (isSquare(x, y, time))
         return {0.9f, 0.2f, 0.1f, 1.0f};
-    // Stripes along the square's way: what it uncovers is seen beside it.
+    // Stripes along the square's path: uncovered parts are visible next to it.
     return y / 8 % 2 == 0 ? vec4(0.6f, 0.6f, 0.7f, 1.0f) : vec4(0.1f, 0.1f, 0.3f, 1.0f);
 }
 
-/// The share of light that the pane takes, by its instant's place and what is before it.
+/// The share of light that the pane takes, by its instant's place and the surfaces in front of it.
 float paneAt(uint32_t x, uint32_t y, double time) {
     const double in = x + 0.5 - (70.0 - 30.0 * time);
     const bool isSeen = in >= 0.0 && in < 32.0 && y >= 8 && y < 40;
@@ -217,7 +217,7 @@ class EmbeddedBlended : public test::EmbeddedTest {
         return raster;
     }
 
-    /// Without what is blended.
+    /// Without the blended layer.
     [[nodiscard]] HostInputs describe() const { return describe(mRaster); }
 
     static HostInputs describe(const Raster& raster) {
@@ -256,7 +256,7 @@ class EmbeddedBlended : public test::EmbeddedTest {
         return makeTexels(format, kSize, std::vector<vec4>(kPixels, texel)).describe();
     }
 
-    /// What the checker says of the layer.
+    /// Sentences of the checker for the layer.
     std::vector<std::string> check(const vec4& texel) {
         std::vector<std::string> told;
         motion_blur::HostDevice host = describeHost();

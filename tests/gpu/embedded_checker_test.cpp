@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The checker finds what a host gets wrong, on real scenes under a moving camera, and says nothing
-// of hosts that are right, whatever their convention; and what `resolved` does not need of a host:
-// vectors where movers have matrices, ids where nothing moves by itself, the frame before at a cut.
+// The checker reports mistakes of hosts on real scenes under a moving camera, and nothing for valid
+// hosts of any convention; and inputs that `resolved` does not require: vectors of movers with
+// matrices, ids without movers, the previous frame at a cut.
 #include "engine/image/metrics.h"
 #include "tests/gpu/checker_host.h"
 

@@ -192,7 +192,7 @@ class EmbeddedConventions : public test::EmbeddedTest {
         return texels;
     }
 
-    /// The part of `target` that the picture belongs to holds it, the rest what was there.
+    /// The picture's part of `target` contains it, the rest is unchanged.
     void expectPart(
         const HostTexels& target,
         const HostInputs& inputs,
@@ -345,7 +345,7 @@ TEST_F(EmbeddedConventions, ALayerIsBlurredLikeAnImageOfItsOwnAndTheOthersStay) 
         color.copyFrom(commands, mTexels[0].staging(), 1);
         motion.copyFrom(commands, mTexels[1].staging(), 1);
         output.copyFrom(commands, mTexels[0].staging(), 0);
-        // Layer 0 is somebody else's, in a layout of its own.
+        // Layer 0 belongs to another user, in another layout.
         color.move(commands, test::kNothing, test::kCopied, 0);
         motion.move(commands, test::kNothing, test::kCopied, 0);
         output.move(commands, test::kWritten, test::kCopied, 0);
@@ -439,7 +439,7 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     HostInputs inputs = conventionInputs();
     inputs.convention.vectors.image =
         makeTexels(VK_FORMAT_R32G32_SFLOAT, kHalf, vectors).describe({{0, 0}, kHalf});
-    // All of its extent is used, where no area is said.
+    // Without an area, all of its extent is used.
     inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT, metres, kHalf);
     EXPECT_TRUE(test::sameBits(draw(inputs), own));
 }
@@ -463,7 +463,7 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
     cut.convention.cameras.clipFromViewBefore = math::dmat4(0.0);
     cut.convention.cameras.jitterPxBefore.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(test::sameBits(draw(cut), sharp));
-    // No vectors hold no jitter, whatever is said of them.
+    // Without vectors their jitter flag is ignored.
     convention.cameras.jitterPx = {0.25, -0.25};
     convention.cameras.jitterPxBefore = {-0.25, 0.25};
     const image::Image jittered = draw(inputs);

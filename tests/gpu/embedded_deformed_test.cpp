@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hosts that deform their meshes themselves and say by pixel where they go.
+// Hosts that deform their meshes themselves and give per-pixel displacements.
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "engine/math/transform.h"
@@ -30,9 +30,9 @@ constexpr int kInstants = 15;
 constexpr uint32_t kWallRow = 0;
 constexpr uint32_t kSquareRow = 1;
 
-/// A square of two colours that slides before a chequered wall, which may slide, too. Each moves as
-/// one, but a host that deforms it does not say so. Places are pixels, times shutter times of the
-/// second frame.
+/// A square of two colours that slides in front of a chequered wall, which may slide, too. Each
+/// moves rigidly, but a host that deforms it does not declare that. Places are pixels, times
+/// shutter times of the second frame.
 struct World {
     double (*squareAt)(double time) = nullptr; ///< left edge
     double (*wallAt)(double time) = [](double) { return 0.0; };
@@ -98,7 +98,7 @@ class Raster {
                     toClose - toOpen, 0.0f, row == kWallRow ? 10.0f : 5.0f, 0.0f
                 );
                 texels.ids.push_back(row);
-                // What does not deform does not count, whatever is there.
+                // Values of pixels that do not deform are ignored.
                 texels.deformed.push_back(
                     row == world.deformed ? vec4(toOpen, 0, toClose, 0) : vec4(nan)
                 );

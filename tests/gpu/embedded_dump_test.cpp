@@ -42,7 +42,7 @@ class EmbeddedDump : public test::EmbeddedTest {
         mBlur = create(mHost);
     }
 
-    /// In a folder of its own.
+    /// In a separate folder.
     void startDump(uint32_t frames) {
         fs::remove_all(mFolder);
         ASSERT_TRUE(mBlur->dump(mFolder, frames).ok());
@@ -224,7 +224,7 @@ TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
         mBlur = create(mHost);
         mHasVectors = mHasIds = !isStillWorld;
         mFirstKey = isStillWorld ? -1.0 : 0.0; // the frame before's
-        (void)draw(0, resolvedWithNoise()); // before the dump: its first frame must not look it up
+        (void)draw(0, resolvedWithNoise());    // before the dump: its first frame must not use it
         startDump(2);
         const image::Image second = draw(1, resolvedWithNoise());
         const image::Image third = draw(2, resolvedWithNoise());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whose raster a host's frame is looked up in: the last one of its own view, and only where the
-// host says that it is the frame before.
+// The history of a host's frame: the last raster of its own view, and only if the host declares it
+// as the previous frame.
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
@@ -22,8 +22,9 @@ using test::HostFrame;
 using test::kSampled;
 using test::Picture;
 
-/// Rasters of one wall in one colour each, under a camera that pans: what comes into the picture
-/// during the exposure is in the last raster alone, and so its colour tells whether it was used.
+/// Rasters of one wall in one colour each, under a camera that pans: surfaces that enter the
+/// picture during the exposure are only in the last raster, so their colour shows whether it was
+/// used.
 struct PannedFrame : HostFrame {
     PannedFrame(gpu::Device& device, uint32_t w, uint32_t h)
         : HostFrame(device, w, h), picture(device, {w, h}) {}
@@ -58,7 +59,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
         bool history = true;
         uint32_t id = 0;      ///< of all its pixels; there is one row
         int index = 1;        ///< of the frame: the pictures of each show another part of the wall
-        bool isStill = false; ///< the camera stands where the frame ends
+        bool isStill = false; ///< the camera is static at the frame's end
     };
 
     void SetUp() override {
@@ -106,7 +107,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
         return mBlur->record(commands, slot, in, settings);
     }
 
-    /// Records and submits; nobody waits for it until read().
+    /// Records and submits; read() waits for it.
     void submit(const Frame& frame, uint32_t slot) {
         InFlight& made = *mFrames.emplace_back(std::make_unique<InFlight>(device(), frame.width));
         made.frame.begin();
@@ -247,7 +248,7 @@ TEST_F(EmbeddedHistory, ARefusedFrameInBetweenLeavesNoneAndOneThatIsDroppedMayBe
 }
 
 TEST_F(EmbeddedHistory, ViewsInTurnsHaveTheirOwnWithFramesInFlight) {
-    // Nobody waits: five recordings are on their way at once, each under its own number.
+    // Without waiting: five recordings are in flight at once, each under its own number.
     submit({.brightness = 1.0f, .view = 0, .followsLast = false, .index = 0}, 0);
     submit({.brightness = 16.0f, .view = 3, .index = 0}, 1);
     submit({.brightness = 4.0f, .view = 0}, 2);

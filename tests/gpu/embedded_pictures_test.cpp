@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The motion blur on raw handles: what a host gets by either interface is what the plugin gives,
-// bit for bit where the host says how things move at the method's instants themselves; and frames
-// in flight that change their size.
+// The motion blur on raw handles: pictures by either interface equal the plugin's, bit for bit if
+// the host gives motion at the method's instants; and frames in flight that change their size.
 #include "engine/image/metrics.h"
 #include "tests/gpu/gbuffer_host.h"
 
@@ -60,7 +59,7 @@ TEST_F(EmbeddedPictures, HybridGivesTheBitsOfThePlugin) {
     expectSameAsPlugin(host, "hybrid", true, false);
 }
 
-/// rosado2007 of a host without Shutter's tables: it follows what it says of its cameras.
+/// rosado2007 of a host without Shutter's tables: it follows the given cameras.
 TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
     for (const bool cameraMoves : {true, false}) {
         test::SceneBuilder scene;
@@ -122,7 +121,7 @@ TEST_F(EmbeddedPictures, WhatResizingLeftOverGoesWhenItsFramesAreDone) {
     };
     draw(0, 40);
     const gpu::LivingObjects one = mBlur->living();
-    draw(1, 40); // not said to be done until below
+    draw(1, 40); // not marked as done until below
     draw(0, 80);
     draw(0, 40);
     draw(0, 40);
@@ -158,7 +157,7 @@ class Scene : public test::SceneBuilder {
     ecs::Entity guest;
 };
 
-/// `resolved` frame after frame of a host that says how its camera and entities move.
+/// `resolved`, frame after frame, for a host that gives the motion of its camera and entities.
 class EmbeddedInstants : public test::EmbeddedTest {
   protected:
     void start(Teller teller, const MotionBlurSettings& settings = resolved()) {

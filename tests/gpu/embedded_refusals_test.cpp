@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a host gets wrong, through both interfaces: what can be seen gives one sentence that names
-// the field, nothing crashes, and what cannot be seen leaves a finite picture. What is wrong of the
-// images of a convention, of keys and of movers is named in tests/unit/motion_blur.
+// Mistakes of hosts through both interfaces: detectable ones give one sentence that names the
+// field, nothing crashes, and others leave a finite picture. Mistakes in images of a convention,
+// keys and movers are tested in tests/unit/motion_blur.
 #include "engine/gpu/frame.h"
 #include "engine/math/transform.h"
 #include "engine/render/renderer.h"
@@ -77,7 +77,7 @@ class EmbeddedRefusals : public test::EmbeddedTest {
         EmbeddedTest::TearDown();
     }
 
-    /// With all that may be said of the images, but for their samples.
+    /// With all image properties but their samples.
     [[nodiscard]] HostInputs makeInputs() const {
         HostInputs made = mHost->inputs();
         for (motion_blur::HostImage* image : {&made.color, &made.motionDepth, &made.output}) {
@@ -372,7 +372,7 @@ TEST_F(EmbeddedRefusals, EachBadArgumentIsNamed) {
         expectNamed(shutterBlurRecord(mC->blur, commands, 0, &ofC, nullptr), pending);
     });
     EXPECT_TRUE(record().ok()) << "the GPU ran both: the numbers are free";
-    gpu::Frame dropped(device()); // nobody submits it
+    gpu::Frame dropped(device()); // never submitted
     dropped.begin();
     mHost->recordClears(dropped.commands());
     ASSERT_TRUE(mBlur->record(dropped.commands(), 0, inputs, settings).ok());
@@ -481,13 +481,13 @@ TEST_F(EmbeddedRefusals, RaysWithoutTheirTablesAreNamed) {
     inputs.entityId = mHost->ids();
     expectNamed(record(), "rays.frameConstants is 0");
     inputs.rays.frameConstants = 4096;
-    // Nothing looks at it: it is refused for what it lacks.
+    // Not dereferenced: it is refused for missing inputs.
     inputs.rays.tlas = reinterpret_cast<VkAccelerationStructureKHR>(uintptr_t{1});
     expectNamed(record(), "rays.tlasBuffer is null");
 }
 
-/// A device of an instance that is made for another version of Vulkan, without validation: what is
-/// wrong with it is for the motion blur to say.
+/// A device of an instance that is made for another version of Vulkan, without validation: the
+/// motion blur must report its faults.
 class OldDevice {
   public:
     explicit OldDevice(uint32_t apiVersion) {
@@ -534,7 +534,7 @@ void expectRefusedOn(uint32_t apiVersion, gpu::RayTier tier, const char* part) {
     host.physical = old.physical;
     host.device = old.device;
     host.rayTier = tier;
-    host.sceneLayout = reinterpret_cast<VkDescriptorSetLayout>(uintptr_t{1}); // nothing looks at it
+    host.sceneLayout = reinterpret_cast<VkDescriptorSetLayout>(uintptr_t{1}); // not dereferenced
     const auto made = EmbeddedMotionBlur::create(host);
     expectNamed(made ? core::Status() : core::Status(made.error()), part);
 }
@@ -570,7 +570,7 @@ TEST_F(EmbeddedRefusals, NumbersThatAreNoneLeaveAFinitePicture) {
     }
 }
 
-/// What an object is told through the message while it is created, records and goes.
+/// Messages while an object is created, records and is destroyed.
 class EmbeddedCare : public EmbeddedRefusals {
   protected:
     /// An object whose message goes to mTold.
@@ -593,7 +593,7 @@ class EmbeddedCare : public EmbeddedRefusals {
     }
 
     void TearDown() override {
-        mBlur.reset(); // which tells more
+        mBlur.reset(); // which reports more
         EmbeddedRefusals::TearDown();
     }
 
@@ -697,7 +697,7 @@ TEST_F(EmbeddedCare, CallsOfASecondThreadOrWithinACallbackAreRefused) {
 TEST_F(EmbeddedCare, TwoThreadsThatRecordAtOnceGetPicturesOrSentences) {
     constexpr int kRounds = 60;
     const HostCameraKey key = makeKey();
-    std::array<std::deque<gpu::Frame>, 2> frames; // nobody submits them
+    std::array<std::deque<gpu::Frame>, 2> frames; // never submitted
     for (int round = 0; round < kRounds; ++round)
         for (auto& own : frames)
             own.emplace_back(device()).begin();
@@ -726,7 +726,7 @@ TEST_F(EmbeddedCare, TwoThreadsThatRecordAtOnceGetPicturesOrSentences) {
 
 TEST_F(EmbeddedCare, AnObjectThatGoesTooEarlySaysSoByItsMessage) {
     createTold(false);
-    gpu::Frame dropped(device()); // nobody submits it
+    gpu::Frame dropped(device()); // never submitted
     dropped.begin();
     mHost->recordClears(dropped.commands());
     ASSERT_TRUE(mBlur->record(dropped.commands(), 0, inputs, settings).ok());

@@ -73,7 +73,7 @@ makeImage(gpu::Device& device, const char* name, VkFormat format, uint32_t width
     return {device, name, {width, height, format, kAllUsage}};
 }
 
-/// The image is as kWritten says afterwards.
+/// The image is in the state kWritten afterwards.
 inline void
 clear(VkCommandBuffer commands, const gpu::Image& image, const VkClearColorValue& value) {
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
@@ -89,7 +89,7 @@ inline VkImageCopy wholeCopy(uint32_t width, uint32_t height, uint32_t sourceLay
     return region;
 }
 
-/// The image is as kCopied says, the buffer one for reading.
+/// The image is in the state kCopied, the buffer is one for reading.
 inline void
 copyToBuffer(VkCommandBuffer commands, const gpu::Image& image, const gpu::Buffer& buffer) {
     VkBufferImageCopy region{};
@@ -120,7 +120,7 @@ class Picture {
     /// As an output, which recordReadback() may follow.
     [[nodiscard]] motion_blur::HostImage output() const { return {handle(), kNothing, kCopied}; }
 
-    /// The image is as kCopied says.
+    /// The image is in the state kCopied.
     void recordReadback(VkCommandBuffer commands) const { copyToBuffer(commands, mImage, mPixels); }
 
     [[nodiscard]] image::Image read() const {
@@ -263,7 +263,7 @@ class TwoLayers {
     TwoLayers(const TwoLayers&) = delete;
     TwoLayers& operator=(const TwoLayers&) = delete;
 
-    /// The layer is as kWritten says afterwards.
+    /// The layer is in the state kWritten afterwards.
     void copyFrom(VkCommandBuffer commands, const gpu::Buffer& texels, uint32_t layer) const {
         move(commands, kNothing, kWritten, layer);
         VkBufferImageCopy region{};
@@ -362,7 +362,7 @@ class EmbeddedTest : public GpuTest {
         return mTexels.emplace_back(device(), format, extent, bytesOf(values), more);
     }
 
-    /// Runs the effect with the texels that were made, and what is recorded behind it.
+    /// Runs the effect with the texels that were made, and the commands recorded after it.
     void
     run(const motion_blur::HostInputs& inputs,
         const motion_blur::MotionBlurSettings& settings,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A host that has the engine's own G-buffer, and tells how the engine's own scene moves.
+// A host with the engine's G-buffer, which describes the motion of the engine's scene.
 #pragma once
 
 #include "engine/extract/frame_view.h"
@@ -33,7 +33,7 @@ namespace shutter::test {
 
 /// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
 /// they happen to have. Blurs it into another picture (view 0) and, a copy of it, in place (view
-/// 1); the frame goes on with what it was.
+/// 1); the frame continues with the original.
 class HostOfTheGBuffer : public render::PostEffect {
   public:
     HostOfTheGBuffer(
@@ -53,14 +53,14 @@ class HostOfTheGBuffer : public render::PostEffect {
     /// The response of the frame as C has it, which takes no address of a table.
     std::vector<math::ResponsePoint> responseForC;
     int64_t frameNumber = 0;
-    /// Says how things move in the frame. What it points to must last until the frame is recorded.
+    /// Describes the motion in the frame. Referenced objects must live until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
     /// Turns the rays that are handed in into a reveal of the host's own.
     std::function<void(motion_blur::HostInputs&)> takeRays;
-    /// Says whatever else the host hands in. What it points to must last until the frame has ended.
+    /// Adds further inputs of the host. Referenced objects must live until the frame has ended.
     std::function<void(const render::PostContext&, motion_blur::HostInputs&)> changeInputs;
-    /// Changes what rays meet. What it points to must last until the frame has ended.
+    /// Changes the scene of rays. Referenced objects must live until the frame has ended.
     std::function<void(const render::PostContext&, motion_blur::HostRays&)> changeRays;
 
     [[nodiscard]] std::string name() const override { return "host"; }
@@ -198,7 +198,7 @@ tellCameras(const scene::World& world, const extract::ViewRequest& view) {
     return cameras;
 }
 
-/// The engine's own scene, as a host would tell of it.
+/// Describes the engine's scene as a host would.
 class Teller {
   public:
     /// \param instantCount of the method

@@ -93,7 +93,7 @@ TEST_F(GraphExecute, AClearedImageIsCopiedByComputeAndReadBack) {
     const auto cleared =
         addClear(rig.graph, VK_FORMAT_R16G16B16A16_SFLOAT, {{0.5f, 2.0f, 0.25f, 1.0f}});
     const auto copied = addScale(rig.graph, device(), scale, cleared, 2.0f);
-    (void)addScale(rig.graph, device(), scale, cleared, 3.0f); // nobody needs it
+    (void)addScale(rig.graph, device(), scale, cleared, 3.0f); // unused
     const size_t before = rig.want(cleared);
     const size_t after = rig.want(copied);
     const graph::Plan plan = run(rig);

@@ -56,7 +56,7 @@ class LensFilters : public test::GpuTest, public testing::WithParamInterface<con
         return rig.take(ticket);
     }
 
-    /// A lens focused at kFocus that spreads what is at `depth` over that radius.
+    /// A lens focused at kFocus that spreads a surface at `depth` over that radius.
     static scene::CameraLens makeLens(double depth, double radiusPx, uint32_t height) {
         const double tangent = std::tan(scene::Camera{}.yFov / 2.0);
         const double pixelsAtOne = height / (2.0 * tangent);
@@ -111,7 +111,7 @@ TEST_P(LensFilters, APlaneInFocusKeepsAllBits) {
 
 TEST_P(LensFilters, ABrightConstantStaysUnderHugeCirclesInPicturesOfAllSizes) {
     constexpr float kBright = 30000.0f;
-    // What is no number is stored as 0.
+    // NaN is stored as 0.
     const auto isConstant = [](const image::Image& picture) {
         for (uint32_t y = 0; y < picture.height; ++y)
             for (uint32_t x = 0; x < picture.width; ++x)
@@ -169,7 +169,7 @@ TEST_P(LensFilters, ANearEdgeCoversWhatIsSharpByTheShareOfItsDisc) {
                 edge.at(x, y, c) = 1.0f;
     const auto depth = [&](uint32_t x, uint32_t) { return isNear(x) ? 1.0f : float(kFocus); };
     const image::Image filtered = filter(edge, depth, makeLens(1.0, kRadius, kSize));
-    // Jimenez's knows nothing of what lies behind the near plane, which stays as it is.
+    // Jimenez's filter has no background behind the near field, which is unchanged.
     const bool looksBehind = GetParam() == std::string("near_far");
     for (int away = looksBehind ? -8 : 0; away <= 12; away += 4) {
         const uint32_t x = uint32_t(int(kSize / 2) + away);

@@ -33,7 +33,7 @@ class Memory : public test::GpuTest {
         mBefore = device().living();
     }
 
-    /// What is retired goes once the GPU has done something after it.
+    /// Retired objects are freed once the GPU has finished later work.
     static void settle() {
         gpu::runOnce(device(), [](VkCommandBuffer) {});
         device().collectIdle();
@@ -127,7 +127,7 @@ TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
     EXPECT_EQ(incoherent->validationMessageCount(), 0u);
 }
 
-/// Textures of images of their own, which wrap in two ways by turns.
+/// Textures of separate images, which alternate between two wrap modes.
 scene::Assets makeAssets(uint32_t textureCount) {
     scene::Assets assets;
     for (uint32_t i = 0; i < textureCount; ++i) {

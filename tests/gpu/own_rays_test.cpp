@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Methods with rays: `hybrid` and `adaptive` with a host's own, what the effect asks for and what
-// it makes of the answers; and ids that have no row in the tables of a host that lets ours be
-// traced.
+// Methods with rays: `hybrid` and `adaptive` with a host's own, the effect's requests and its use
+// of the answers; and ids that have no row in the tables of a host that lets ours be traced.
 #include "spirv/answer_samples.comp.h"
 #include "spirv/motion_blur/reveal.comp.h"
 
@@ -36,7 +35,7 @@ constexpr math::uvec2 kSize = test::kStageSize;
 constexpr uint32_t kInstants = 7;
 
 /// Rays of the host's: a compute shader with the host's tables of its scene. The engine's own
-/// reveal, so that the picture can be told from the engine's.
+/// reveal, so that the picture differs from the engine's.
 class RevealHost {
   public:
     RevealHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout) : mDevice(device) {
@@ -259,7 +258,7 @@ TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
     MotionBlurSettings hosts = adaptive(float(kInstants));
     MotionBlurSettings plugins = settingsOf("resolved", kInstants);
     plugins.history = false;
-    hosts.uniformMotionPx = plugins.uniformMotionPx = 0.0f; // each pixel looks for itself
+    hosts.uniformMotionPx = plugins.uniformMotionPx = 0.0f; // each pixel searches individually
     const StagedFrame drawn = drawSamples(plugins, hosts, false);
     EXPECT_EQ(mCounters.at("rays traced"), 0u);
     EXPECT_TRUE(test::sameBits(drawn.output, drawn.result.color));
@@ -275,15 +274,14 @@ class EmbeddedIds : public test::EmbeddedTest {
             GTEST_SKIP() << "the device traces no rays";
     }
 
-    /// What `hybrid` draws for a host whose table ends after `rowCount` rows: what lies behind them
-    /// leads nowhere.
+    /// Draws `hybrid` for a host whose table ends after `rowCount` rows: rows beyond are invalid.
     static image::Image
     draw(uint32_t rowCount, const MotionBlurSettings& settings = settingsOf("hybrid")) {
         test::SceneBuilder scene;
         test::buildMovers(scene);
         motion_blur::HostDevice described = describeHost();
         described.rayTier = device().info().rayTier;
-        // One of the renderer's own effects has to ask for rays: the plugin.
+        // One of the renderer's own effects has to request rays: the plugin.
         BlurStage stage(device(), scene, described, settings, settings);
         stage.host.blurOfC = nullptr;
         std::vector<gpu::Buffer> tables; // of the frame

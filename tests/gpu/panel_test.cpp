@@ -30,7 +30,7 @@ constexpr const char* kHeaders[] = {
     "Why",
     "Keys"};
 
-/// Something of everything that a frame can tell.
+/// An example of each statistic of a frame.
 render::FrameStatistics makeStatistics() {
     render::FrameStatistics statistics;
     statistics.passes = {
@@ -244,7 +244,7 @@ TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
                                         .last = &window}
                                    )
                                    .display;
-    // Left of the panel, below the score, the picture is what it was.
+    // Left of the panel, below the score, the picture is unchanged.
     EXPECT_GT(shown.at(64, 360, 0), shown.at(1248, 360, 0));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures that share a view share the measurement of its cap; a method that looks at the frame
-// before gets it, whether a sequence drew it or not; and pictures on the way of a progressive
+// Pictures that share a view share the measurement of its cap; a method that uses the previous
+// frame gets it, whether a sequence drew it or not; and intermediate pictures of a progressive
 // method.
 #include "game/shot/picture_drawer.h"
 #include "modules/bloom/bloom.h"
@@ -30,7 +30,7 @@ class PictureDrawerTest : public test::GpuTest {
         mOptions.height = 30;
     }
 
-    /// What is drawn from now on.
+    /// The shutter of later pictures.
     void useShutter(const scene::CameraShutter& shutter) {
         mScene.world.registry.add(mScene.camera, shutter);
         mShot.world = std::move(mScene.world);
@@ -135,7 +135,7 @@ TEST_F(PictureDrawerTest, BloomFollowsTheHighlightsOfTheLastPictureThatIsFinishe
     EXPECT_TRUE(runsBloom(1.0, true));
     EXPECT_TRUE(runsBloom(0.0, true)) << "the last picture had one";
     EXPECT_FALSE(runsBloom(0.0, true));
-    // Pictures that stand for themselves do not depend on those before.
+    // Independent pictures do not depend on earlier ones.
     EXPECT_TRUE(runsBloom(0.0, false));
     EXPECT_TRUE(runsBloom(0.0, false));
     EXPECT_TRUE(runsBloom(0.0, true)) << "the last picture was not measured";

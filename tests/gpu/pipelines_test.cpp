@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pipelines that are made ahead of their use, kept by a device, and made for certain taps; and the
-// formats of what is bound to them: a storage image must have the one that the shader declares.
+// formats of bound images: a storage image must have the one that the shader declares.
 #include "spirv/motion_blur/reconstruct.comp.h"
 
 #include "engine/gpu/descriptors.h"
@@ -61,7 +61,7 @@ PassParams makeParams(uint32_t taps) {
 
 TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgainAndMayGo) {
     for (int i = 0; i < 4; ++i)
-        gpu::LazyPipeline(device(), test::describeScalePipeline()).prepare(); // nobody waits for it
+        gpu::LazyPipeline(device(), test::describeScalePipeline()).prepare(); // not waited for
     const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
     EXPECT_FALSE(pipeline.isReady());
     pipeline.prepare();
@@ -93,7 +93,7 @@ TEST_F(Pipelines, WithoutVariantsOnePipelineServesAll) {
     EXPECT_EQ(taps.variantCount(), 0u);
 }
 
-// What is made for certain taps draws what the pipeline for all draws.
+// A pipeline for certain taps draws the same as the general one.
 
 constexpr uint32_t kWidth = 120;
 constexpr uint32_t kHeight = 72;
@@ -160,7 +160,7 @@ TEST_F(Pipelines, VariantsDrawWhatThePipelineForAllDraws) {
         }
 }
 
-/// Tests with a device of their own.
+/// Tests with a separate device.
 class OwnDevice : public test::GpuTest {
   protected:
     void open(uint32_t kept, gpu::PipelinesAhead ahead = {}) {
@@ -235,7 +235,7 @@ TEST_F(OwnDevice, PipelinesAheadOfTimeNoFrameWaitsForAVariant) {
         const TapPipelines general(ahead, describeGather(), TapVariants::None);
         const gpu::Pipeline* const first = &taps.find(makeParams(15));
         EXPECT_EQ(taps.variantCount(), 1u);
-        // The general one stands in for as long as it takes, and no longer.
+        // The general one is used until the special one is ready, and no longer.
         const gpu::Pipeline* found = first;
         for (int i = 0; i < 2000 && found == first; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -282,7 +282,7 @@ TEST_F(Bindings, AStorageImageFitsIfItsFormatIsTheShaders) {
 using BindingsDeathTest = Bindings;
 
 TEST_F(BindingsDeathTest, AFrameRefusesAStorageImageOfAnotherFormat) {
-    // The driver has threads: the test runs once more in a process of its own.
+    // The driver has threads: the test runs again in a separate process.
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const gpu::Pipeline scale = test::makeScalePipeline(device());
     const gpu::Image halves = makeImage(device(), "halves", VK_FORMAT_R16G16B16A16_SFLOAT);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray-tracing pipelines: their tables, and that what they reveal is what ray queries reveal.
+// Ray-tracing pipelines: their tables, and that they reveal the same as ray queries.
 #include "engine/gpu/ray_pipeline.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/support/gpu_fixture.h"

@@ -291,7 +291,7 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
 }
 
 TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
-    // A tile that moves beside one that does not, each its own neighbourhood.
+    // A moving tile next to a static one, each with its own neighbourhood.
     Scene scene = makeScene();
     scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
         return vec3(x < 16 ? 9.0f : 0.0f, 0.0f, 3.0f);
@@ -312,7 +312,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
 }
 
 TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
-    // A red slab above moves up, one below moves down, what is between is static; the dominant
+    // A red slab above moves up, one below moves down, the part between is static; the dominant
     // motion runs across. At shutter close each slab was over the middle before.
     Scene scene;
     for (uint32_t y = 0; y < kHeight; ++y)
@@ -324,7 +324,7 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
         }
     scene.motionDepth.at(22, 15, 0) = 12.0f;
     MotionBlurSettings settings = oneTile(&getMethod("guertin2014"));
-    settings.tileSizePx = 24; // two tiles beside each other; the other one's motion goes up
+    settings.tileSizePx = 24; // two adjacent tiles; the other one's motion goes up
     scene.motionDepth.at(40, 15, 0) = 0.6f;
     scene.motionDepth.at(40, 15, 1) = 9.0f;
     settings.sampleCount = 35;
@@ -334,7 +334,7 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
 }
 
 TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
-    // No weight but the target's own: still pixels, each at a depth of its own, beside one mover.
+    // No weight but the target's own: static pixels, each at a different depth, next to one mover.
     Scene scene = makeScene();
     scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t y) {
         // The mover is behind them all: it may cover nothing.
@@ -352,7 +352,7 @@ TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
 
 TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
     // A mover fills the tiles at the left; with neighbourhoods of one tile only the jitter of the
-    // look-up carries its smear over the border at x = 16.
+    // lookup carries its smear over the border at x = 16.
     constexpr uint32_t kTile = 16;
     Scene scene = makeScene();
     scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {

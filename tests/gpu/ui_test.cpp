@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The user interface on the window: pixels in their places, whoever moves the pointer.
+// The user interface on the window: pixels in their places, for windows and scripts.
 #include "engine/app/ui.h"
 #include "engine/app/window_output.h"
 #include "modules/tonemap/tonemap.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Textures with their mip levels and buffers, read back; pictures of formats that only windows have
-// come back as what was shown.
+// Textures with their mip levels and buffers, read back; pictures of window formats are read back
+// as shown.
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
 #include "tests/gpu/effect_rig.h"

@@ -65,7 +65,7 @@ void readBuffer(Graph& graph, BufferHandle buffer, Access access, PassKind kind)
     });
 }
 
-/// Three passes that store to one image, as `access` says, and one that samples it.
+/// Three passes that store to one image with `access`, and one that samples it.
 void storeThrice(Graph& graph, Access access) {
     ImageHandle image = makeImage(graph, "target");
     for (const char* name : {"first", "second", "third"})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a frame: passes culled, ordered and told, memory shared.
+// Compilation of a frame: culling, ordering, errors, shared memory.
 #include "engine/graph/compile.h"
 #include "engine/graph/compile_stages.h"
 #include "tests/graph/story.h"
@@ -87,7 +87,7 @@ TEST(Order, TheDataFilledBySetupReachesExecute) {
     for (int i = 0; i < 100; ++i) // the first pass's data stays where it is
         (void)store(graph, "more", makeImage(graph, "a"));
     EXPECT_EQ(data.number, 7);
-    // The callback looks at neither the frame nor the resources.
+    // The callback uses neither the frame nor the resources.
     alignas(PassContext) std::byte unused[sizeof(PassContext)]{};
     graph.passes()[0].execute(reinterpret_cast<PassContext&>(unused));
     EXPECT_EQ(seen, 7);

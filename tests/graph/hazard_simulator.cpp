@@ -118,7 +118,7 @@ struct Event {
     VkAccessFlags2 access = 0;
     VkPipelineStageFlags2 after = 0; ///< stages that now wait for it
     bool available = false;
-    bool isDisjoint = false; ///< a write that leaves alone what others of its kind write
+    bool isDisjoint = false; ///< a write disjoint from others of its kind
     std::map<VkPipelineStageFlags2, VkAccessFlags2> visible{}; ///< by single stage
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Plays a plan pass by pass and watches every piece of memory: who wrote it, who read it since, who
-// has been made to wait for that and who may see it. Written from Vulkan's rules (chapter
-// "Synchronization"), not from the graph's code; stricter in one way: a barrier is taken to order
-// only the memory it names.
+// Simulates a plan pass by pass and tracks all memory: its writers, later readers, waits, and
+// visibility. Written from Vulkan's rules (chapter "Synchronization"), not from the graph's code;
+// stricter in one way: a barrier is taken to order only the memory it names.
 #pragma once
 
 #include "engine/graph/compile.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Laws that hold for every frame, tried on many that nobody would think of.
+// Laws for every frame, tested on many random ones.
 #include "tests/graph/hazard_simulator.h"
 #include "tests/graph/story.h"
 
@@ -16,14 +16,14 @@
 namespace shutter::graph {
 namespace {
 
-/// A frame nobody would think of. The images it imports live as long as it does.
+/// A random frame. Its imported images live as long as it does.
 struct RandomFrame {
     Graph graph;
     std::array<gpu::Image, 3> imported;
 };
 
 template <class Handle> struct Known {
-    std::vector<Handle> versions; ///< [0] is what it began as
+    std::vector<Handle> versions; ///< [0] is the initial version
     bool startsFilled = false;
     uint32_t size = 0; ///< images: side in texels
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -103,7 +103,7 @@ class Maker {
         });
     }
 
-    /// Whether the pass is the first to ask for it; one pass may use it only once.
+    /// Whether this is the pass's first use; one pass may use it only once.
     bool claim(uint32_t resource) {
         if (std::find(mUsed.begin(), mUsed.end(), resource) != mUsed.end())
             return false;
@@ -271,7 +271,7 @@ template <class Check> void forEachFrame(Check&& check) {
             EXPECT_FALSE(canBeOrdered(all, findEdges(frame->graph, all)));
         }
         if (testing::Test::HasFailure())
-            return; // one seed is enough to look into
+            return; // one failing seed is enough
     }
     EXPECT_GT(compiled, kSeedCount / 2) << "most frames should say something";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Short words for telling a frame.
+// Short helpers for declaring a frame.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -17,7 +17,7 @@ namespace shutter::graph {
 inline constexpr VkFormat kColor = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 
-/// 4 bytes a texel, placed at multiples of 256.
+/// 4 bytes per texel, placed at multiples of 256.
 inline MemoryRequirement requireMemory(const TransientImageDesc& desc, VkImageUsageFlags) {
     return {VkDeviceSize{4} * desc.width * desc.height, 256};
 }

@@ -200,7 +200,7 @@ TEST_F(BlendedLayerLaw, AMoverBetweenTwoPanesHidesTheFarOneAlone) {
 }
 
 TEST_F(BlendedLayerLaw, WhatAPaneAndAMoverCoverTogetherIsNotTakenApart) {
-    // Glass that rides before what it covers: the mean of each over the other's would mix them.
+    // Glass that moves with the surfaces that it covers: compositing means would mix them.
     SceneBuilder scene = makeWall();
     addBox(scene, {.position = {0, 0, -2.6}, .velocity = {2.4, 0, 0}});
     scene.add(
@@ -253,7 +253,7 @@ TEST_F(BlendedLayerLaw, GlassOnAMoverThatComesNearerIsNotHiddenByIt) {
     SceneBuilder scene = makeWall();
     const Placement way{.position = {0.1, 0, -2.4}, .velocity = {1.2, 0, 2.4}};
     scene.add(test::makeQuad(1.2, 1.0, scene.addColor({0.9f, 0.2f, 0.1f})), way);
-    // A millimetre before it, which is less than a half float tells apart.
+    // A millimetre in front of it, less than the resolution of a half float.
     Placement before = way;
     before.position.z += 1.0e-3;
     scene.add(test::makeQuad(0.7, 0.6, addGlass(scene, {0.1f, 0.9f, 0.2f}, 0.6f)), before);
@@ -298,8 +298,8 @@ TEST_F(BlendedLayerLaw, APaneBeforeAMovingCameraIsHiddenWhereTheRasterSeesIt) {
     );
     addPane(scene, 0.6f, {.position = {0, 0, -2}, .velocity = {0.8, 0, 0}});
     scene.moveCamera({.angularVelocity = {0, 0.3, 0}});
-    // Filters know the raster's depth alone. Looked up where the instant's camera sees the pane,
-    // and not the raster's, it would give 35.9.
+    // Filters know the raster's depth alone. A lookup with the instant's camera instead of the
+    // raster's would give 35.9.
     EXPECT_GT(measure(scene, "own_velocity"), 39.0);
 }
 
@@ -502,7 +502,7 @@ TEST_F(BlendedLayerLaw, LightThatIsAddedAndPremultipliedColoursBlurAsByBruteForc
     for (const scene::BlendMode mode : {scene::BlendMode::Add, scene::BlendMode::Premultiplied})
         for (const std::string_view method : {"resolved", "gather"})
             EXPECT_GT(measure(makeGlow(mode), method), 45.0) << method;
-    // What is added hides nothing: no pixel is darker than without it.
+    // Additive light hides nothing: no pixel is darker than without it.
     const image::Image with = draw(makeGlow(scene::BlendMode::Add), "sharp").color;
     const image::Image without = draw(makeWall(), "sharp").color;
     for (size_t i = 0; i < with.pixels.size(); ++i)

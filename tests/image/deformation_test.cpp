@@ -304,7 +304,7 @@ TEST_F(WaveLaw, VerticesThatWaveAsOneDrawTheRigidMoversPicture) {
         shot.ambient = math::vec3(0.2f);
         const auto expected = test::renderOnce(device(), rigid, shot);
         const auto result = test::renderOnce(device(), waving, shot);
-        // What deforms is found by fits of its tiles' motion, which perspective bends.
+        // Deforming surfaces are found by fits of their tiles' motion, which perspective bends.
         const double bound = method == std::string_view("resolved") ? 48.0 : 50.0;
         EXPECT_GT(image::computePsnr(result.color, expected.color), bound) << method;
     }

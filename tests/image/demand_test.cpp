@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A frame pays for what it shows, and what it leaves out is not missing from the picture; passes it
-// can do without; frames that another method draws while pipelines are being made.
+// A frame costs only what it shows, without changing the picture; passes that may be omitted;
+// frames of another method while pipelines are being made.
 #include "engine/image/metrics.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -114,7 +114,7 @@ TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
     (void)frames.draw(frameShot("hybrid"));
     // Pipelines and the read-back of counters stay; they know no picture's size.
     EXPECT_GT(device().living().accelerationStructures, still.accelerationStructures);
-    // One more: what is retired goes when the next frame is done.
+    // One more: retired objects are freed when the next frame is done.
     for (uint32_t i = 0; i <= render::kFramesKept; ++i)
         (void)frames.draw(frameShot("hybrid", 0.0));
     device().collect();
@@ -258,7 +258,7 @@ TEST_F(PassCount, WhatNobodyReadsIsNotReadBack) {
     check("resolved", "unresolved samples", "read resolved counters");
 }
 
-/// A device that makes pipelines ahead, except for one, which waits until it is let go.
+/// A device that makes pipelines ahead, except for one, which waits until it is released.
 class HoldingDevice {
   public:
     HoldingDevice(const std::string& name, gpu::RayTier tier) {
@@ -300,7 +300,7 @@ class HoldingDevice {
     std::unique_ptr<gpu::Device> mDevice;
 };
 
-/// What is destroyed before a pipeline is made waits for it: a test that fails must not hold it.
+/// Destruction waits for pipelines in progress: a failing test must release them.
 struct LetGoAtEnd {
     HoldingDevice& holding;
 
@@ -354,7 +354,7 @@ class StandIn : public test::RayTest {
     }
 };
 
-// Each in a process of its own: the layer reads what it holds once.
+// Each in a separate process: the layer reads its held pipelines once.
 TEST_F(StandIn, GatherDrawsUntilBothKindsOfRevealArePreparedByQueries) {
     checkTier(gpu::RayTier::RayQuery);
 }

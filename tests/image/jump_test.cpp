@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has no past is sharp, and what jumps during an exposure is in each of its places for as much
-// of the light as it is there, in every method.
+// Entities without a past are sharp, and entities that jump during an exposure are in each of their
+// places for their share of the light, in every method.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "tests/support/deformed_meshes.h"
@@ -224,8 +224,8 @@ class JumpLaw : public test::GpuTest {
         return methods;
     }
 
-    /// What the square adds to the wall, as a share of what it would add if it were there alone, at
-    /// a pixel from the picture's centre, up and right.
+    /// The square's contribution over the wall as a share of its full contribution, at a pixel
+    /// relative to the picture's centre, up and right.
     static double shareAt(const image::Image& picture, int x, int y) {
         const auto column = static_cast<uint32_t>(int(picture.width) / 2 + x);
         const auto row = static_cast<uint32_t>(int(picture.height) / 2 - y);

@@ -44,7 +44,7 @@ void expectWritten(const render::FrameResult& frame, uint64_t rows, uint64_t mot
     EXPECT_EQ(frame.statistics.counters.at("entity motions written"), motions);
 }
 
-/// A mover before `count` tiles of a wall, each an entity of its own.
+/// A mover in front of `count` tiles of a wall, each a separate entity.
 struct Crowd {
     SceneBuilder scene;
     std::vector<ecs::Entity> tiles;
@@ -215,7 +215,7 @@ Sequence draw(gpu::Device& device, const std::string& method, uint32_t framesInF
     const auto finish = [&] {
         render::FrameResult result = renderer.finishFrame();
         sequence.colors.push_back(std::move(result.color));
-        // How many rows were written, and what is kept, depends on how many are in flight.
+        // The number of written rows and the reused data depend on the frames in flight.
         for (const char* own : {"entity rows written", "entity motions written", "history bytes"})
             result.statistics.counters.erase(own);
         sequence.counters.push_back(result.statistics.counters);

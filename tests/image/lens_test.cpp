@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lens, in the methods that have one: what is in focus stays, a point of light becomes the
-// image of the opening, and both truths see the same.
+// The lens, in the methods that have one: surfaces in focus stay sharp, a point of light becomes
+// the image of the opening, and both truths see the same.
 #include "engine/image/metrics.h"
 #include "engine/scene/lens.h"
 #include "tests/support/gpu_fixture.h"

@@ -81,7 +81,7 @@ Agreement compareMapsWithRays(Stage& stage) {
 
 TEST_F(ShadowLaw, MapsAndRaysAgreeFromACentimetreToAKilometre) {
     for (const double scale : {0.01, 1.0, 1000.0}) {
-        // It stands on the floor: a gap or a leak at its foot would count.
+        // It is on the floor: a gap or a leak at its foot would be an error.
         SceneBuilder scene = makeFloor({.position = {0.3, 0.4, 0.2}}, scale);
         scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
         Stage stage(device(), scene);
@@ -114,7 +114,7 @@ TEST_F(ShadowLaw, MapsThatNoImageOfTheDeviceHoldsAreRefused) {
 }
 
 TEST_F(ShadowLaw, ALitPlaneHasNoAcneAtAnyAngle) {
-    // What is far below makes depths coarse.
+    // A surface far below makes depths coarse.
     for (const auto& [height, other] :
          {std::pair{2.0, 100.0}, {0.5, 100.0}, {0.15, 100.0}, {0.5, -20000.0}}) {
         SceneBuilder scene = makeFloor({.position = {0, other, 0}});
@@ -360,7 +360,7 @@ TEST_F(EnvironmentLaw, OneOfOneColourIsTheBackgroundAndTheAmbientLight) {
     for (const std::string_view method : methods) {
         Shot shot{.method = method, .background = color, .ambient = color, .instants = 8};
         const auto expected = before.render(shot);
-        // The two colours do not count beside an environment.
+        // The two colours are ignored with an environment.
         shot.background = shot.ambient = math::vec3(9.0f);
         const auto seen = after.render(shot);
         EXPECT_GT(image::computePsnr(expected.color, seen.color), 55.0) << method;

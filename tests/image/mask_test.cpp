@@ -48,7 +48,7 @@ size_t countMasked(gpu::Device& device, const SceneBuilder& scene, const Shot& s
 }
 
 TEST_F(MaskLaw, TheSameMeshIdIsNotMasked) {
-    // Both move alike: only the paper's mask, which has no uniform motion, looks at them.
+    // Both move alike: only the paper's mask, which has no uniform motion, tests them.
     Shot shot = maskShot();
     shot.settings.uniformMotionPx = 0.0f;
     // Mover and wall are one entity: the same picture, the same depths, the same motion.
@@ -145,7 +145,7 @@ TEST_F(MaskLaw, NoEdgeMeansNoMask) {
 
 TEST_F(MaskLaw, TheEdgeMeasureFollowsTheDepthStep) {
     // A vertical step of D metres: the derivative (1 2 0 -2 -1) times the smoothing (1 4 6 4 1)
-    // gives 16 * 3 D beside the step, 16 * D one pixel further out. Normals are equal.
+    // gives 16 * 3 D next to the step, 16 * D one pixel further out. Normals are equal.
     const double gap = 0.05;
     SceneBuilder scene;
     addMaskMover(scene, gap, 12.0);
@@ -193,7 +193,7 @@ TEST_F(MaskLaw, TheRangeCheckReachesAsFarAsTheMotion) {
         addMaskMover(scene, 5.0, speedPx);
         Stage stage(device(), scene);
         Shot shot = maskShot();
-        // The mover stands where it does at time 0 in both.
+        // The mover has its place at time 0 in both.
         shot.phase = scene::ShutterPhase::Start;
         const auto start = stage.render(shot);
         const auto [first, end] = maskedSpan(start.intermediates.at("mask"), 34, 62);
@@ -275,12 +275,12 @@ void addMover(SceneBuilder& scene) {
     addSquare(scene, {0.35, 0.1, 0});
 }
 
-/// Passes what is near faster than what is far; panes stay in the raster.
+/// Passes near surfaces faster than far ones; panes stay in the raster.
 void moveCamera(SceneBuilder& scene) {
     scene.moveCamera({.velocity = {-0.7, -0.2, 0}});
 }
 
-/// A pane before the mover and one behind it; the last entities, so that no other id changes.
+/// A pane in front of the mover and one behind it; the last entities, so that no other id changes.
 void addPanes(SceneBuilder& scene, const dvec3& velocity = dvec3(0.0)) {
     scene.add(
         test::makeQuad(1.2, 0.5, addGlass(scene, {0.1f, 0.3f, 0.9f, 0.4f})),
@@ -300,8 +300,8 @@ auto isSet(const image::Image& mask) {
     return [&mask](uint32_t x, uint32_t y) { return mask.at(x, y, 0) > 0.5f; };
 }
 
-/// Inside the mask, where `with` shows what `without` has not, what is revealed is what raster
-/// draws of `without`. \return the mask, of these pixels alone
+/// Inside the mask, where `with` shows surfaces that `without` lacks, the revealed layer equals the
+/// raster of `without`. \return the mask, of these pixels alone
 image::Image
 expectRevealed(gpu::Device& device, const SceneBuilder& with, const SceneBuilder& without) {
     const auto expected = test::renderOnce(device, without, shotOf("sharp"));
@@ -353,7 +353,7 @@ TEST_F(TransparencyLaw, WhatIsRevealedIsSeenThroughTheBlendedSurfacesBeforeIt) {
     addSquare(with, dvec3(0.0));
     moveCamera(with);
     const image::Image mask = expectRevealed(device(), with, without);
-    // The law means nothing where no pane is before what is revealed.
+    // The law is void without a pane in front of the revealed surface.
     const auto panes = test::renderOnce(device(), without, shotOf("sharp"));
     const auto none = test::renderOnce(device(), makeWall(), shotOf("sharp"));
     EXPECT_GT(test::computeMaxDifferenceWhere(none.color, panes.color, isSet(mask)), 0.2);

@@ -180,7 +180,7 @@ class Drawer : public test::Frames {
             .exposureSeconds = 0.5,
             .frameSeconds = kFrameSeconds,
             .settings = settings};
-        // The frame before is there for the methods that look things up in it.
+        // The previous frame exists for methods that look up surfaces in it.
         if (settings.method->readsInstantMotions) {
             shot.seconds = -kFrameSeconds;
             (void)draw(shot);
@@ -318,7 +318,7 @@ class InstantNoises : public test::GpuTest {
 /// Errors along the middle of the post's smear, as shares of its brightness.
 struct SmearError {
     double banding = 0.0; ///< root mean square of the columns' means
-    double noise = 0.0;   ///< ... of what is left without them
+    double noise = 0.0;   ///< ... of the remainder without them
 };
 
 SmearError measureSmear(const image::Image& picture, const image::Image& truth) {
@@ -441,7 +441,7 @@ TEST_F(InstantNoises, LooksOfBlocksAreThoseOfTheirPixels) {
     shot.settings.uniformMotionPx = 0.0f;
     const auto each = test::renderOnce(device(), scene, shot);
     EXPECT_GT(image::computePsnr(together.color, each.color), 45.0);
-    shot.settings.sampleCount = 40; // more than blocks have looks for
+    shot.settings.sampleCount = 40; // more instants than blocks store
     EXPECT_TRUE(test::allFinite(test::renderOnce(device(), scene, shot).color));
 }
 

@@ -51,7 +51,7 @@ const Model kModels[] = {
     {"Interpolation", "InterpolationTest/InterpolationTest.glb", 1.3, 0.08},
     {"SpinningWheels", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08, 1.3},
     // Rolls without slipping. Wheels and body move differently inside of one tile, which knows one
-    // dominant motion: what the paper's gather costs there is its own, 1.3 to 1.4 dB.
+    // dominant motion: the error of the paper's gather there is 1.3 to 1.4 dB.
     {"RollingTruck", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08, 1.3, {0, 0, 2.15}, 1.5},
 };
 

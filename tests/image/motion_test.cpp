@@ -66,13 +66,13 @@ dmat4 poseAt(const Placement& placement, double seconds) {
     return math::computeMatrix(transform);
 }
 
-/// What is in the picture: at most one plane (the object's z = 0), and where the camera is.
+/// The scene: at most one plane (the object's z = 0), and the camera's place.
 struct Case {
     std::optional<Placement> plane;
     Placement camera{};
 };
 
-/// Motion a pixel must have, or nothing where its ray runs too near the quad's border to tell.
+/// Motion a pixel must have, or nothing if its ray is too near to the quad's border.
 std::optional<dvec2>
 expectedMotion(const Case& scene, const dvec2& px, const scene::ExposureInterval& exposure) {
     const Pinhole raster{poseAt(scene.camera, exposure.raster)};
@@ -413,8 +413,8 @@ constexpr double kMiddlePx = -13.3; // of the rectangle that moves, from the pic
 constexpr double kWidthPx = 21.3;
 constexpr uint32_t kInstants = 17;
 
-/// Two flat rectangles before a flat wall; `side` -1 mirrors places and motion. Silhouettes lie
-/// off the pixel centres, so that no tie decides what is covered.
+/// Two flat rectangles before a flat wall; `side` -1 mirrors places and motion. Silhouettes lie off
+/// the pixel centres, so that coverage has no ties.
 SceneBuilder makeSided(double side) {
     SceneBuilder scene;
     scene.setPixelView(64);

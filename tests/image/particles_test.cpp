@@ -351,7 +351,7 @@ TEST_F(ParticleLaw, ACameraThatMovesHidesThemAtEachInstantByWhatItSeesThen) {
 
 TEST_F(ParticleLaw, OverGlassTheyLieOverWhatIsSeenThroughIt) {
     PuffScene scene(makePuffs());
-    scene.addSweep(2.4, math::vec3(8.0f)); // bright: what is behind shows through dark glass
+    scene.addSweep(2.4, math::vec3(8.0f)); // bright: the background shows through dark glass
     scene::Material glass;
     glass.baseColorFactor = vec4(0.05f, 0.05f, 0.05f, 0.9f);
     glass.alphaMode = scene::AlphaMode::Blend;
@@ -473,7 +473,7 @@ TEST_F(ParticleLaw, LitOnesSendBackTheLightFromEverywhereAndOfLamps) {
 }
 
 TEST_F(ParticleLaw, AfterTenHoursThePictureIsThatOfTheBeginning) {
-    // Without anything random, since what is random hangs on when a span begins.
+    // Without randomness, since it depends on the start of a span.
     const auto drawAt = [&](double hours, std::string_view method) {
         PixelScene scene;
         ParticleEmitter emitter = makeShower();

@@ -342,7 +342,7 @@ TEST_F(Denoised, LeavesWhatStandsStillAsTheRaysSawIt) {
     const Image filtered = draw("denoised", "1");
     const Image truth = draw("truth", "1");
     ASSERT_EQ(filtered.width, 640u);
-    // Every ray of a pixel away from the vase, and from what it passes, sees the same.
+    // Every ray of a pixel away from the vase, and from surfaces behind it, has the same result.
     for (uint32_t y = 0; y < 360; ++y)
         for (uint32_t x = 0; x < 640; x += x == 119 ? 401 : 1)
             for (uint32_t c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `resolved` and `adaptive` make of what deforms: as good as of what is rigid.
+// `resolved` and `adaptive` with deforming meshes: as good as with rigid ones.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "tests/support/deformed_meshes.h"
@@ -134,7 +134,7 @@ TEST_F(ResolvedDeform, AMorphsEdgesHaveTheProfileOfAMovingEdge) {
     }
 }
 
-/// Two strips of colours of their own that turn as they cross, side by side when the exposure ends.
+/// Two strips of different colours that turn as they cross, side by side when the exposure ends.
 /// \param gap of their depths then
 SceneBuilder makeCrossing(SceneBuilder scene, bool isReversed, double gap) {
     for (const bool isRed : {!isReversed, isReversed}) {
@@ -152,7 +152,7 @@ SceneBuilder makeCrossing(SceneBuilder scene, bool isReversed, double gap) {
 TEST_F(ResolvedDeform, FramesHaveTheSameBitsInEachRunAndOrderOfEntities) {
     Shot shot = shotOf("resolved");
     shot.settings.secondRaster = true;
-    // Coplanar ones, too: no depth says which of them is seen where they cross.
+    // Coplanar ones, too: depth does not determine which of them is visible where they cross.
     for (const double gap : {0.3, 0.0}) {
         const SceneBuilder scene = makeCrossing(makeRoom(), false, gap);
         const SceneBuilder reversed = makeCrossing(makeRoom(), true, gap);
@@ -300,7 +300,7 @@ TEST_F(ResolvedDeform, AMeshOfTwoPrimitivesMovesAsTheSameMeshOfOne) {
     for (const bool isCut : {false, true}) {
         SceneBuilder scene = makeRoom();
         addWaver(scene, 25.0, {4, 0, 0});
-        // The last frame's raster is searched for what it hides.
+        // The last frame's raster is searched for surfaces that it hides.
         scene.add(test::makeBox({0.5, 3, 0.1}, scene.addWaves()), {.position = {0.3, 0, -2}});
         if (isCut)
             for (scene::Mesh& mesh : scene.world.assets.meshes)
@@ -351,7 +351,7 @@ TEST_F(ResolvedDeform, LimbsThatCrossWithinATileAreAllFound) {
 }
 
 /// A sheet whose halves move apart like a pair of scissors: the border between them is that of
-/// tiles. A still post stands before it.
+/// tiles. A static post is in front of it.
 SceneBuilder makeScissors() {
     SceneBuilder scene;
     scene.setPixelView(kHeight);
@@ -469,7 +469,7 @@ TEST_F(ResolvedDeform, WhatCollapsesTurnsInsideOutOrIsDegenerateIsFiniteAndBette
             const double still = image::computePsnr(sharp, truth);
             EXPECT_LT(still, 36.0) << "it moves";
             const double best = std::max(still, image::computePsnr(drawPhase("gather"), truth));
-            // Of what this frame's raster does not show at all nothing is looked for.
+            // Entities that this frame's raster does not show are not searched.
             const bool isShown = !test::sameBits(sharp, draw(makeRoom(), shotOf("sharp")));
             for (const bool hasSecond : {false, true}) {
                 const image::Image picture = drawPhase("resolved", hasSecond);
@@ -564,7 +564,7 @@ TEST_F(ResolvedDeform, ACharacterThatIsTeleportedOrAppearsHasNoPast) {
     }
 }
 
-/// Passes of a frame that are there for what deforms.
+/// Passes of a frame for deforming meshes.
 std::set<std::string> listDeformingPasses(const render::FrameResult& frame) {
     std::set<std::string> names;
     for (const render::PassTime& pass : frame.statistics.passes)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What `resolved` may look up in the last frame's raster, and what it must not: pictures drawn one
-// after the other by one renderer, with something in between. A frame finds the same there whether
-// the frame before kept it or it is drawn once more.
+// Valid and invalid history of `resolved`: pictures drawn in sequence by one renderer, with events
+// in between. A frame gets the same history whether the previous frame stored it or it is drawn
+// again.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "engine/scene/path.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a pixel saw, looked up: near the truth where a raster holds it, blocks of one plane
-// together, crowded tiles, and the raster of the exposure's other end.
+// Looked-up samples: near the truth if a raster holds them; blocks of one plane, crowded tiles, and
+// the raster of the exposure's other end.
 #include "engine/image/metrics.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -46,7 +46,7 @@ class Resolved : public test::GpuTest {
         return scene;
     }
 
-    /// A camera that turns about a fence of narrow bars, so that what is behind them runs past.
+    /// A camera that turns about a fence of narrow bars, so that the background moves past them.
     static test::SceneBuilder makeFence(bool hasWall) {
         test::SceneBuilder scene;
         scene.setPerspective(0.785);
@@ -162,7 +162,7 @@ TEST_F(Resolved, TheLastFrameHoldsWhatThisOneHides) {
     );
 }
 
-// Both keep rasters: one that runs again must not take what it kept long ago for the last frame's.
+// Both keep rasters: one that runs again must not use outdated history.
 TEST_F(Resolved, AnotherMethodInBetweenLeavesNoGhost) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "adaptive needs ray queries";
@@ -187,7 +187,7 @@ TEST_F(Resolved, OnlyTilesThatSeeMoreEntitiesThanAListHoldsAreCrowded) {
     scene.setPixelView(64);
     const scene::AssetIndex color = scene.addColor(math::vec3(1.0f));
     const scene::AssetIndex mesh = scene.addMesh({test::makeQuad(1, 1, color)});
-    // One a pixel of a block of 8 x 8: twice as many as a tile has room for.
+    // One per pixel of a block of 8 x 8: twice as many as a tile has room for.
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)
             scene.add(mesh, {.position = {x + 0.5, y + 0.5, -10}, .velocity = {0, 48.0 * 3, 0}});
@@ -331,7 +331,7 @@ class ResolvedCrowd : public test::GpuTest {
     /// 1500 squares of 3.5 pixels before a wall.
     struct Crowd {
         dvec3 together{0.0};      ///< m/s, of all
-        double apart = 0.0;       ///< m/s at most, of each in a direction of its own
+        double apart = 0.0;       ///< m/s at most, each in another direction
         test::Placement camera{}; ///< of the picture
     };
 
@@ -406,8 +406,8 @@ TEST_F(ResolvedCrowd, IsNearerToTheTruthThanTheFiltersHoweverItAndTheCameraMove)
 
 class SecondRaster : public test::GpuTest {
   protected:
-    /// A textured wall, two posts that stand before it and two boxes that cross between them: what
-    /// one hides at the exposure's end, and hid a frame before, it shows at its beginning.
+    /// A textured wall, two posts in front of it and two boxes that cross between them: surfaces
+    /// that one hides at the exposure's end, and hid a frame before, are visible at its beginning.
     static test::SceneBuilder makeScene() {
         test::SceneBuilder scene;
         scene.setPerspective(0.9);

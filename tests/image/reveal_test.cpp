@@ -71,8 +71,8 @@ struct RevealCase {
     Shot shot = revealShot();
     /// Pixels that must be in the mask for the case to mean anything.
     size_t leastMasked = 150;
-    /// Of the background, somewhere behind the mask; the motion that is revealed is raster's. Below
-    /// 0: it is not looked at.
+    /// Of the background, somewhere behind the mask; the revealed motion is the raster's. Below 0:
+    /// not tested.
     double leastMotionPx = -1.0;
 };
 
@@ -102,7 +102,7 @@ void expectRevealIsRaster(gpu::Device& device, const RevealCase& law) {
     };
     const image::Image& reveal = result.intermediates.at("reveal");
     EXPECT_LE(test::computeMaxDifferenceWhere(reveal, expected, masked), 1.0 / 255.0);
-    // The law means nothing where the occluder looks like what it hides.
+    // The law is void if the occluder looks like the surface behind it.
     const auto hidden = test::renderOnce(device, both, sharp).color;
     EXPECT_GT(test::computeMaxDifferenceWhere(hidden, expected, masked), 0.2);
     const image::Image& motion = drawn.intermediates.at("motion");
@@ -151,8 +151,8 @@ TEST_F(RevealLaw, WhatIsRevealedIsWhatRasterDrawsWithoutTheMover) {
         {"holes of an alpha mask",
          [](SceneBuilder& scene) {
              const auto leaves = scene.addWaves(true);
-             // Level 0 of its texture (nearest, below one texel a pixel): the hole's border is
-             // where both say it is.
+             // Level 0 of its texture (nearest, below one texel per pixel): both give the same
+             // border of the hole.
              scene.world.assets.textures.back().nearest = true;
              scene.add(test::makeQuad(9, 9, leaves), {.position = {0.03, 0.02, -3}});
              addWall(scene);

@@ -103,7 +103,7 @@ scene::CameraShutter withResponse(ResponseShape shape, std::vector<double> sampl
     return shutter;
 }
 
-/// Most light at open, none at close: it tells early from late.
+/// Most light at open, none at close: it makes early and late differ.
 scene::CameraShutter fallingResponse() {
     return withResponse(ResponseShape::Sampled, {1.0, 0.0});
 }
@@ -209,7 +209,7 @@ TEST_F(ShutterLaw, WhatIsConstantIsABoxBitForBitInEveryMethod) {
 }
 
 TEST_F(ShutterLaw, InsideAMoverTheFiltersSeeItWhenItsLightIsTaken) {
-    // A ramp of 1/400 a pixel that moves 24 px: where a pixel looks on average is what it shows.
+    // A ramp of 1/400 per pixel that moves 24 px: a pixel's value is its mean sample position.
     constexpr double kMotion = 24.0;
     SceneBuilder scene;
     scene.setPixelView(64);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Temporal anti-aliasing against the mean over the pixel: it is that mean where nothing moves, and
-// nothing stays of what has moved, gone or changed.
+// no ghosts of moved, removed or changed objects remain.
 #include "engine/extract/shadow_plan.h"
 #include "engine/scene/history.h"
 #include "engine/scene/particle_emitter.h"
@@ -34,8 +34,8 @@ class TaaLaw : public test::GpuTest {
   protected:
     TaaLaw() { mScene.setPerspective(0.9); }
 
-    /// White tiles on black, turned so that their edges need smoothing: no colour between the two
-    /// looks out of place on it.
+    /// White tiles on black, turned so that their edges need smoothing: any colour between the two
+    /// is plausible on it.
     void addTiles(const test::Placement& placement) {
         mScene.add(test::makeQuad(12.0, 12.0, mScene.addColor(math::vec3(0.05f))), placement);
         const auto white = mScene.addColor(math::vec3(0.9f));
@@ -118,7 +118,7 @@ TEST_F(TaaLaw, NothingStaysBehindWhatMoves) {
         test::makeQuad(1.0, 2.0, mScene.addColor(math::vec3(0.45f))),
         {.position = {0.5 - speed * kSeconds, 0, -4}, .velocity = {speed, 0, 0}}
     );
-    // What it covered in the four frames before and does not now.
+    // The part that it covered in the four frames before and does not now.
     const Region isBehind = [](uint32_t x, uint32_t y) {
         return x < kWidth / 2 - 2 && y > 24 && y < 40;
     };
@@ -213,7 +213,7 @@ class TaaEdge : public TaaLaw {
   protected:
     static constexpr double kDistance = 5.0;
 
-    /// Pixels that what lies at kDistance moves by from frame to frame.
+    /// Motion in pixels per frame of surfaces at kDistance.
     void slideCamera(double pixels) {
         mSpeed = pixels * 24.0 * 2.0 * std::tan(0.45) * kDistance / kHeight;
         mScene.moveCamera({.velocity = {mSpeed, 0, 0}});
@@ -472,7 +472,7 @@ TEST_F(TaaChange, AnEntityThatStopsShowsNothingOfWhatItHides) {
     path.keys = {{.seconds = 0.0}, {.seconds = kSeconds - 3.5 / 24.0}};
     path.keys[0].position = math::dvec3(-9.0, 0, -4);
     path.keys[1].position = math::dvec3(0, 0, -4);
-    // What it shows spreads as far as what it hides: clipping would not do.
+    // Its colours vary as much as those behind it: clipping would not suffice.
     mScene.world.registry.add(mScene.add(test::makeQuad(2.0, 2.0, mScene.addWaves()), {}), path);
     scene::hide(mScene.world, mSquare);
     EXPECT_LT(measureError(AntiAliasing::Taa, isMiddle), 0.035);
@@ -538,7 +538,7 @@ TEST_F(TaaLight, AMovingShadowLeavesNothing) {
     // Where it was, left of where it is and below the middle, where tiles of the picture meet.
     const Region isBehind = [](uint32_t x, uint32_t y) { return x < 30 && y > 32 && y < 42; };
     EXPECT_LT(measureError(AntiAliasing::Taa, isBehind), 0.01);
-    // Larger, in the upper half: the box has no layer of its own any more.
+    // Larger, in the upper half: the box no longer has a separate layer.
     for (uint32_t i = 0; i < extract::kMaxShadowMovers; ++i)
         mScene.add(
             test::makeBox({1.5, 1.5, 0.1}, gray),

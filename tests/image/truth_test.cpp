@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The truths: the mean of many instants and distributed rays, each against closed forms, what rays
-// say of their own error, and both alike whatever moves.
+// The truths: the mean of many instants and distributed rays, each against closed forms, the error
+// estimate of rays, and agreement of both for any motion.
 #include "engine/image/metrics.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"

@@ -17,7 +17,7 @@
 
 namespace shutter::test {
 
-/// Pictures that are uploaded have the number of channels that the function says (CHECKed).
+/// Uploaded pictures must have the number of channels in the function's name (CHECKed).
 class GraphRig {
   public:
     explicit GraphRig(gpu::Device& device);
@@ -31,7 +31,7 @@ class GraphRig {
     [[nodiscard]] graph::ImageHandle uploadColor(const image::Image& picture);
     /// One channel of whole numbers, as R32_UINT.
     [[nodiscard]] graph::ImageHandle uploadIds(const image::Image& ids);
-    /// Asks for a picture; \return the ticket for take()
+    /// Requests a picture; \return the ticket for take()
     [[nodiscard]] size_t want(graph::ImageHandle image);
     /// Records, submits and waits. Error: the graph does not compile.
     [[nodiscard]] core::Result<graph::Plan> run();

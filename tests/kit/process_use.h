@@ -7,7 +7,7 @@
 
 namespace shutter::test {
 
-/// Bytes of this process in main memory; nothing where the system does not say (it does on Linux).
+/// Bytes of this process in main memory; nothing if the system does not report it (Linux does).
 [[nodiscard]] std::optional<uint64_t> findResidentBytes();
 
 } // namespace shutter::test

@@ -30,7 +30,7 @@ struct Placement {
 
 class SceneBuilder {
   public:
-    /// A camera at the origin that looks down -Z.
+    /// A camera at the origin with -Z forward.
     SceneBuilder();
 
     scene::World world;

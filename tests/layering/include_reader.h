@@ -12,9 +12,9 @@ namespace shutter::layering {
 
 /// One #include line.
 struct Include {
-    std::string file;    ///< the file it stands in, from the repository root, with '/'
+    std::string file;    ///< the including file, from the repository root, with '/'
     size_t line = 0;     ///< from 1
-    std::string target;  ///< what stands between the quotes or brackets; empty for a macro
+    std::string target;  ///< the text between the quotes or brackets; empty for a macro
     bool quoted = false; ///< "target" rather than <target>
 };
 

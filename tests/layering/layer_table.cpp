@@ -75,8 +75,8 @@ const std::vector<Row> kGameRows = {
     {"examples", {}},
 };
 
-/// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
-/// and drawn agrees with the same shaders.
+/// Rooms that shaders/render belongs to: extraction on the CPU, device data, tracing and drawing
+/// share the same shaders.
 const Names kSceneRooms = {"extract", "gpu_scene", "rays", "render"};
 
 /// The headers of a folder of engine/ that other folders may include, where some are private to it.
@@ -93,12 +93,13 @@ const std::vector<PublicHeaders> kPublicHeaders = {
     {"gltf", {"gltf_loader.h"}},
 };
 
-/// A module that other engines may take without our scene: what lies outside its plugin/ sees this.
+/// A module that other engines may take without our scene: files outside of its plugin/ may include
+/// this.
 const Names kModulesWithEffect = {"motion_blur"};
 const Names kEffectSees = {"core", "math", "gpu", "graph"};
 
-/// Libraries that only some parts of the tree may name; "modules" stands for any module, "game" for
-/// all of it.
+/// Libraries that only some parts of the tree may name; "modules" means any module, "game" for all
+/// of it.
 struct LibraryRow {
     std::string_view prefix;
     Names owners;
@@ -308,7 +309,7 @@ std::string resolve(const Include& include, const FileExists& exists) {
         if (exists(candidate))
             return candidate;
     }
-    // A file that does not exist yet, or is generated, still tells its part of the tree.
+    // A file that does not exist yet, or is generated, still determines its part of the tree.
     static const Names kTops = {
         "engine", "modules", "game", "assets", "shaders", "spirv", "double", "tests"};
     if (kTops.contains(folderAt(asWritten, 0)) || exists(asWritten))
@@ -330,8 +331,8 @@ std::optional<std::string> findLibraryViolation(const Part& from, std::string_vi
     return std::nullopt;
 }
 
-/// A project of its own, built against the installed package: what is installed is there, and what
-/// it makes itself.
+/// A separate project, built against the installed package: it may include installed and its own
+/// headers.
 bool isExample(std::string_view file) {
     return file.starts_with("game/examples/");
 }

@@ -19,8 +19,8 @@ using FileExists = std::function<bool(const std::string&)>;
 /// The folders of engine/ that the table has a row for, lowest first.
 [[nodiscard]] const std::vector<std::string_view>& engineFolders();
 
-/// "file:line includes X: why not", or nothing when the table allows it. An include is looked for
-/// beside its file, from the root and from shaders/, as the compilers do.
+/// "file:line includes X: why not", or nothing when the table allows it. An include is searched in
+/// its file's folder, from the root and from shaders/, as compilers do.
 [[nodiscard]] std::optional<std::string>
 findViolation(const Include& include, const FileExists& exists);
 

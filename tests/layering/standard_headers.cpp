@@ -21,8 +21,8 @@ struct Row {
     std::string_view names; ///< separated by spaces
 };
 
-/// What this tree uses, and what it is likely to use. Names that several headers declare (begin,
-/// hash, swap of one type) are left out; abs is <cmath>'s, as it is used for floats.
+/// Names that this tree uses or is likely to use. Names that several headers declare (begin, hash,
+/// swap of one type) are left out; abs is <cmath>'s, as it is used for floats.
 constexpr std::array kRows = {
     Row{"algorithm",
         "all_of any_of none_of for_each find find_if find_if_not find_first_of adjacent_find count "
@@ -124,7 +124,7 @@ bool isIntegerType(std::string_view name) {
     return findHeader(name) == "cstdint";
 }
 
-/// The file of the tree that an include names: beside its file, from the root or from shaders/.
+/// The file of the tree that an include names: in its folder, from the root or from shaders/.
 std::optional<std::string> findFile(const SourceTree& tree, const Include& include) {
     const std::filesystem::path beside = std::filesystem::path(include.file).parent_path();
     for (const auto& folder : {beside, std::filesystem::path(), std::filesystem::path("shaders")}) {

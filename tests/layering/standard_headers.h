@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds names of the standard library whose header nobody of this tree includes: they compile for
+// Finds names of the standard library whose header no file of this tree includes: they compile for
 // as long as another header happens to bring them, which differs between releases of a compiler.
 #pragma once
 
@@ -29,8 +29,8 @@ using SourceTree = std::map<std::string, SourceFile>;
 void addSources(SourceTree& tree, const std::filesystem::path& root, std::string_view folder);
 
 /// "file uses std::min without <algorithm>" for each name of a file whose header neither the file
-/// nor any file of the tree that it includes, directly or not, includes. Names that the table lacks
-/// are let pass.
+/// nor any file of the tree that it includes, directly or not, includes. Names that are not in the
+/// table are ignored.
 [[nodiscard]] std::vector<std::string> findMissingHeaders(const SourceTree& tree);
 
 } // namespace shutter::layering

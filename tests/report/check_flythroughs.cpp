@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads each flythrough that is named and prints a line for it: nothing, or what is wrong.
+// Reads each named flythrough and prints a line for it: empty, or the error.
 #include "engine/flythrough/flythrough.h"
 
 #include <fmt/format.h>

@@ -79,7 +79,7 @@ void expectSoundDeformation(const scene::Primitive& primitive) {
     }
 }
 
-/// Every time is safe to ask for.
+/// Every time is valid.
 void expectSoundEntity(const scene::World& world, ecs::Entity entity) {
     const scene::Mesh& mesh =
         world.assets.meshes[world.registry.get<scene::MeshInstance>(entity).mesh];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every correct scene of shared/scenes loads, and a few hold what their README says they hold.
+// Every correct scene of shared/scenes loads, and a few have the contents listed in their README.
 #include "engine/gltf/gltf_loader.h"
 
 #include <gtest/gtest.h>

@@ -23,8 +23,8 @@ using math::dvec3;
 using test::Frames;
 using Lines = std::multiset<std::string>;
 
-/// The lines of a section ("passes", "images", "buffers") of graph::dump(): what stands two spaces
-/// in, a pass without its place in the frame.
+/// The lines of a section ("passes", "images", "buffers") of graph::dump(): those indented by two
+/// spaces, a pass without its place in the frame.
 Lines listParts(const std::string& dump, const std::string& section) {
     Lines parts;
     bool isInside = false;
@@ -38,7 +38,7 @@ Lines listParts(const std::string& dump, const std::string& section) {
     return parts;
 }
 
-/// Those of `lines` that have no equal of their own among `others`.
+/// Those of `lines` without a separate equal among `others`.
 std::vector<std::string> listBeyond(const Lines& lines, const Lines& others) {
     std::vector<std::string> beyond;
     std::set_difference(
@@ -138,7 +138,7 @@ TEST_F(Demand, OnlyBlocksOfTilesInWhoseNeighbourhoodSomethingMovesAreFiltered) {
         double share = 0.0;
         double filtered = 0.0;
         const auto found = drawn.intermediates.find("tiles");
-        if (found != drawn.intermediates.end()) { // else the effect was not asked for
+        if (found != drawn.intermediates.end()) { // else the effect was not requested
             const image::Image& tiles = found->second;
             for (uint32_t y = 0; y < tiles.height; ++y)
                 for (uint32_t x = 0; x < tiles.width; ++x)
@@ -204,10 +204,10 @@ struct Useless {
     bool isUnlit = false; ///< and so is the picture without the options
     bool hasSun = true;
     bool hasSolid = true; ///< floor and ball hold light back; else they are blended
-    bool isSeen = true;   ///< the camera looks at them; else away from them
+    bool isSeen = true;   ///< the camera faces them; else it faces away
     bool moves = false;   ///< the ball
     bool hasEnvironment = false;
-    bool isFirst = true; ///< its first frame is looked at; else the one after
+    bool isFirst = true; ///< tests its first frame; else the next one
     double stepSeconds = 0.0;
     bloom::BloomSettings bloom{};
 };
@@ -357,7 +357,7 @@ TEST_F(Demand, AntiAliasingWhereNothingMovesHasOnePassAndOneImage) {
     const auto passes = listBeyond(listParts(asked, "passes"), listParts(plain, "passes"));
     ASSERT_EQ(passes.size(), 1u);
     EXPECT_TRUE(passes.front().starts_with("'taa'")) << passes.front();
-    // Lines say how long images live, which a pass of its own changes.
+    // Lines contain the lifetimes of images, which a further pass changes.
     EXPECT_LE(listParts(asked, "images").size(), listParts(plain, "images").size() + 1);
 }
 

@@ -63,9 +63,9 @@ void holdRoundings(const Worst& worst, const char* check, double bound) {
     hold(check, worst, bound, "2^-24");
 }
 
-/// The three filters' weights. A cylinder is steep, 15 / v a pixel, at a place that is rounded from
-/// values of the size v: some 30 roundings for each of two. Cones and the rest add a few, and what
-/// is magnified 30 times is relative to that.
+/// The three filters' weights. A cylinder is steep, 15 / v per pixel, at a place that is rounded
+/// from values of the size v: some 30 roundings for each of two. Cones and the rest add a few, and
+/// the magnification by 30 is relative to that.
 TEST(FunctionPrecision, FilterWeightsInSinglePrecisionAreNearThoseInDouble) {
     Dice dice;
     Worst gather;

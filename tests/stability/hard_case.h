@@ -43,7 +43,7 @@ struct Worst {
 };
 
 /// Expects samples, none of them worse than the bound. --gtest_output=json:FILE writes the worst
-/// beside its bound.
+/// with its bound.
 void hold(
     const std::string& check, const Worst& worst, double bound = 0.0, const std::string& unit = ""
 );
@@ -74,8 +74,8 @@ struct Range {
 [[nodiscard]] render::FrameResult
 draw(Stage& stage, Shot shot, std::string_view method, bool hasIntermediates = true);
 
-/// Pictures of every method in every phase, and their intermediates, are finite and inside of the
-/// range of what was filtered. \param label for the report
+/// Pictures of every method in every phase, and their intermediates, are finite and within the
+/// range of the filtered picture. \param label for the report
 void holdEveryMethod(
     gpu::Device& device, Stage& stage, const Shot& shot, const std::string& label = ""
 );
@@ -87,7 +87,7 @@ makePrimitive(const generator::Shape& shape, scene::AssetIndex material);
 /// \return the sphere
 ecs::Entity addWallAndSphere(SceneBuilder& scene);
 
-/// A camera at the origin that looks down -Z, perspective, 0.9 rad high.
+/// A camera at the origin with -Z forward, perspective, 0.9 rad high.
 [[nodiscard]] SceneBuilder makeEmptyScene();
 
 /// Every pass has something to do: movers before each other, holes, light, a camera that turns.

@@ -247,10 +247,10 @@ void holdSteps(
 
 TEST_F(HardFilters, AMotionLongerByATenthOfAThousandthOfAPixelIsNotSeen) {
     // Of a filter whose taps are nearest texels, weights change by about the step over a tenth of
-    // the motion, 1e-4 of them; what is more is the decision that flips, which texel a tap takes:
-    // of the taps, at most two of a pixel are within the step of a border at a time, and each has
-    // less than a tenth of the weight. Each then moves the mean by its share of the slope. Both
-    // means are stored as half floats, off by less than kStored each.
+    // the motion, 1e-4 of them; the rest is the decision that flips, which texel a tap takes: of
+    // the taps, at most two of a pixel are within the step of a border at a time, and each has less
+    // than a tenth of the weight. Each then moves the mean by its share of the slope. Both means
+    // are stored as half floats, off by less than kStored each.
     holdSteps(
         device(),
         {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}},
@@ -260,7 +260,7 @@ TEST_F(HardFilters, AMotionLongerByATenthOfAThousandthOfAPixelIsNotSeen) {
 
 TEST_F(HardFilters, AMotionThatPassesHalfAPixelIsNotSeen) {
     // The decision that a pixel is still flips. The taps are in the pixel's own texel then, whose
-    // colour is a half float: what is left is the rounding of their mean.
+    // colour is a half float: the remainder is the rounding of their mean.
     holdSteps(device(), {{0.47886f, 0.0f}, {0.0f, 0.49022f}}, kStored);
 }
 

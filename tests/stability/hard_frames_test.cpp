@@ -141,8 +141,8 @@ TEST_F(HardFrames, AHitchUnderACappedShutterIsAFrameAtTheReferenceRate) {
 }
 
 /// Change of light, percent of the sharp picture's. A truth conserves light to 0.5 %. No published
-/// filter does: a gather's weights do not sum to what a pixel is covered for, so the filters are
-/// held to what was measured here.
+/// filter does: a gather's weights do not sum to a pixel's coverage, so the filters are held to
+/// values measured here.
 struct Light {
     std::string_view method;
     double expected;

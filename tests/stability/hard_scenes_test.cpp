@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scenes that are hard on numbers: places, cameras, exposures, meshes, materials, transforms, sizes
-// and counts. README.md says what is required of their pictures.
+// and counts. README.md lists the requirements on their pictures.
 #include "engine/extract/extracted_frame.h"
 #include "tests/stability/hard_case.h"
 #include "tests/support/deformed_meshes.h"
@@ -165,7 +165,7 @@ void buildZeroScale(SceneBuilder& scene) {
         );
 }
 
-/// Rank one, rank zero, NaN, infinity and 1e300 beside a sound mover.
+/// Rank one, rank zero, NaN, infinity and 1e300 next to a valid mover.
 void buildSingularMatrices(SceneBuilder& scene) {
     addWall(scene);
     const auto waves = scene.addWaves();
@@ -387,7 +387,7 @@ TEST_F(HardScenes, TenAndAThousandKilometresFromTheOriginAllIsAsThere) {
 }
 
 TEST_F(HardScenes, SpinsOfUpToTenTurnsAreFiniteAndInRange) {
-    // After whole turns a bar ends where it began: what is stored as motion is not the way.
+    // After whole turns a bar ends where it began: stored motion is not the path.
     for (const double turns : {0.6, 1.0, 10.3}) {
         SceneBuilder scene = makeEmptyScene();
         addWall(scene);
@@ -491,7 +491,7 @@ TEST_F(HardScenes, PicturesOfOnePixelAndOfOneRowAreFiniteAndInRange) {
     for (const auto& [width, height] :
          {std::pair{1u, 1u}, {40u, 40u}, {41u, 39u}, {1u, 50u}, {81u, 1u}}) {
         Shot shot = makeLitShot();
-        shot.background = math::vec3(0.0f); // beside the wall
+        shot.background = math::vec3(0.0f); // outside of the wall
         shot.width = width;
         shot.height = height;
         shot.exposureSeconds = 0.1;

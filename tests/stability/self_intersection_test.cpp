@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that go on from a surface: how many meet it again, how many miss the next one a millimetre
-// behind.
+// Rays that go on from a surface: how many hit it again, and how many miss the next one a
+// millimetre behind.
 #include "engine/gpu/memory.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/render/post_effect.h"

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Frames after which the same is done again. At a cycle's end everything is set as at its start,
-/// so that what is held in memory then may be compared (addPauses()).
+/// so that memory use may be compared then (addPauses()).
 constexpr uint32_t kCycleFrames = 250;
 constexpr double kFrameSeconds = 1.0 / 30.0;
 constexpr uint32_t kKeptPictures = 20;
@@ -40,8 +40,8 @@ constexpr uint32_t kKeptPictures = 20;
 /// The events of one cycle by frame.
 using Cycle = std::map<uint32_t, std::vector<ordered_json>>;
 
-/// What is tapped every third frame: methods twice as often as the rest. M walks through all
-/// methods, N through those of the left side, V through the intermediates.
+/// Keys pressed every third frame: methods twice as often as the rest. M walks through all methods,
+/// N through those of the left side, V through the intermediates.
 constexpr std::array kToggles = {
     "m", "m", "m", "n", "v", "x", "b", "f1", "1", "2", "3", "4", "5", "comma", "slash"};
 constexpr uint32_t kToggleEvery = 3;
@@ -292,12 +292,12 @@ constexpr game::PictureSize kSize{64, 36};
 /// What allocators and drivers may take over a run of any length: over 20,000 frames a leak of one
 /// kilobyte in each is beyond it.
 constexpr uint64_t kProcessBytes = uint64_t{16} << 20u;
-/// What is made when it is first needed, late in a run too: each frame in flight has a buffer of
-/// its own for a picture that is read back, and images with the usage that goes with it.
+/// Objects made on first use, late in a run too: each frame in flight has a separate buffer for a
+/// picture that is read back, and images with the usage that goes with it.
 constexpr uint64_t kDeviceObjects = 4;
 constexpr uint64_t kDeviceBytes = uint64_t{256} << 10u;
 
-/// What is held at the end of a cycle, when the device is idle.
+/// Memory use at the end of a cycle, when the device is idle.
 struct Holdings {
     uint64_t processBytes = 0;
     gpu::LivingObjects device;
@@ -366,10 +366,10 @@ template <class Value> uint64_t findMost(std::span<const Holdings> cycles, const
     return most;
 }
 
-/// Names what grew beyond its bound from the first to the last third of the counted cycles. The
-/// first half of all cycles does not count: shaders are compiled in it, and each frame in flight
-/// has tables of its own (a 16 MiB buffer of shadow casters) that reach their size when the largest
-/// frame first meets them, in the third cycle at the latest.
+/// Names memory that grew beyond its bound from the first to the last third of the counted cycles.
+/// The first half of all cycles does not count: shaders are compiled in it, and each frame in
+/// flight has separate tables (a 16 MiB buffer of shadow casters) that reach their size when the
+/// largest frame first meets them, in the third cycle at the latest.
 std::vector<std::string> listGrowth(const SoakRun& run) {
     const std::span<const Holdings> counted = std::span(run.cycles).subspan(run.cycles.size() / 2);
     const size_t third = std::max(counted.size() / 3, size_t{1});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is switched on and off every frame leaves nothing behind: no bit in a picture, no memory.
+// Switching effects on and off every frame leaves no trace: no bit in a picture, no memory.
 #include "engine/core/check.h"
 #include "game/shot/picture_drawer.h"
 #include "modules/tonemap/tonemap.h"
@@ -21,7 +21,7 @@ constexpr double kTimes[] = {0.0, 0.1};
 constexpr uint32_t kCycle = 200;
 constexpr uint32_t kFrames = 10 * kCycle;
 
-/// What can be switched.
+/// The switches.
 struct Switches {
     const game::MethodInfo* method = nullptr;
     bool exposed = false;

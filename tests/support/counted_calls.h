@@ -9,7 +9,7 @@
 
 namespace shutter::test {
 
-/// Counts calls while it lives: `CountedCalls<&vkCmdDispatch> dispatches;`. One a function at a
+/// Counts calls while it lives: `CountedCalls<&vkCmdDispatch> dispatches;`. One per function at a
 /// time, after Vulkan was loaded.
 template <auto pointer> class CountedCalls;
 

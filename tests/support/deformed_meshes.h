@@ -26,8 +26,8 @@ struct SkinnedEntity {
 };
 
 /// \param joints the first is a root, each other one a child of the one before. The mesh is bound
-/// to them as they stand at time 0 with the first at the origin, unturned. One that neither moves
-/// nor turns has no velocity components.
+/// to their pose at time 0 with the first at the origin, unrotated. One that neither moves nor
+/// turns has no velocity components.
 SkinnedEntity
 addSkinned(SceneBuilder& scene, scene::Primitive primitive, std::span<const Placement> joints);
 

@@ -28,7 +28,7 @@ SharedDevice openDevice() {
     return {std::move(opened).value(), ""};
 }
 
-/// Opened by the first test that asks; closed after the last test, before statics die.
+/// Opened by the first test that uses it; closed after the last test, before statics die.
 std::optional<SharedDevice>& sharedDevice() {
     static std::optional<SharedDevice> shared;
     return shared;

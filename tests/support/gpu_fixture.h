@@ -11,12 +11,12 @@
 
 namespace shutter::test {
 
-/// A device of its own that is not as it is. \param variable of tests/fault_layer/README.md
+/// A separate device with a simulated fault. \param variable of tests/fault_layer/README.md
 [[nodiscard]] core::Result<std::unique_ptr<gpu::Device>>
 openFaulty(const gpu::DeviceOptions& options, const char* variable, const std::string& value);
 
 /// Base of every test that draws: one validated device for the whole process, and a test fails when
-/// validation (core or synchronization) says anything during it. Skipped with the reason where
+/// validation (core or synchronization) reports anything during it. Skipped with the reason where
 /// there is no device or no validation layer; with SHUTTER_REQUIRE_DEVICE set that is a failure.
 class GpuTest : public ::testing::Test {
   protected:

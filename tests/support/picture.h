@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Questions that laws ask of pictures.
+// Measurements of pictures for laws.
 #pragma once
 
 #include "engine/image/image.h"

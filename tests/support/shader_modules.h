@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shader modules of this build, as they are shipped, and what each asks of a device.
+// The shader modules of this build, as they are shipped, and their device requirements.
 #pragma once
 
 #include "engine/gpu/device_select.h"

@@ -71,8 +71,8 @@ class Stage {
     render::Renderer mRenderer;
 };
 
-/// Frames drawn one after the other, as in a game: effects keep what they keep from frame to frame,
-/// and nothing is drawn again that an earlier one should have left.
+/// Frames drawn in sequence, as in a game: effects keep their history from frame to frame, and no
+/// history is drawn again.
 class Frames {
   public:
     /// \param scene outlives this
@@ -81,7 +81,7 @@ class Frames {
     );
 
     /// With reasons and the graph's dump. Fails the test, and returns an empty result, on an error.
-    /// \param change made to what is asked of the drawer
+    /// \param change applied to the request to the drawer
     [[nodiscard]] render::FrameResult
     draw(const Shot& shot, const std::function<void(game::PictureRequest&)>& change = {});
 

@@ -13,8 +13,8 @@
 
 namespace shutter::test {
 
-/// A folder that no other test uses, even when ctest runs several at a time; it is removed with
-/// all that it holds. Throws std::runtime_error when it cannot be made.
+/// A folder that no other test uses, even when ctest runs several at a time; it is removed with its
+/// contents. Throws std::runtime_error when it cannot be made.
 class TempFolder {
   public:
     TempFolder() {

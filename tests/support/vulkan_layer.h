@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a Vulkan layer needs to stand between the loader and what is below it. No library: a layer
-// links to nothing.
+// Helpers for a Vulkan layer between the loader and the next layer. No library: a layer links to
+// nothing.
 #pragma once
 
 #include <vulkan/vk_layer.h>
@@ -40,7 +40,7 @@ template <class Info> Info* findLink(const void* chain, VkStructureType type) {
     return nullptr;
 }
 
-/// What is below the layer while a device is created.
+/// The functions below the layer while a device is created.
 struct DeviceLink {
     PFN_vkGetInstanceProcAddr ofInstance = nullptr;
     PFN_vkGetDeviceProcAddr ofDevice = nullptr;
@@ -73,7 +73,7 @@ struct DeviceLink {
     return below;
 }
 
-/// \return the layer's own function, unless what is below lacks it: that stays missing
+/// \return the layer's own function, unless it is missing below: then it stays missing
 [[nodiscard]] inline PFN_vkVoidFunction standIn(PFN_vkVoidFunction below, PFN_vkVoidFunction own) {
     return below && own ? own : below;
 }

@@ -29,7 +29,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     return result;
 }
 
-/// Creates the device with the extension that tells what the compiler made of a pipeline.
+/// Creates the device with the extension that returns a pipeline's compiler statistics.
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     VkPhysicalDevice physical,
     const VkDeviceCreateInfo* info,

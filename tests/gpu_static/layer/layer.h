@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands below the layer, and the functions that it stands in for.
+// Functions below the layer, and those that it replaces.
 #pragma once
 
 #include "tests/support/vulkan_layer.h"

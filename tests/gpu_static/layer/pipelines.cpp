@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes down what the compiler made of each pipeline: one file each in the folder
-// SHUTTER_STATISTICS, shared by all runs, so that each pipeline is looked at once. The driver
-// compiles anew what it is to look at; all else it may take from its cache.
+// Writes the compiler statistics of each pipeline to a file in the folder SHUTTER_STATISTICS,
+// shared by all runs, so that each pipeline is measured once. The driver compiles measured
+// pipelines again; others may come from its cache.
 #include "tests/gpu_static/layer/layer.h"
 
 #include <array>
@@ -127,7 +127,7 @@ Identity identify(const VkGraphicsPipelineCreateInfo& info) {
     return identity;
 }
 
-/// Where the statistics of a pipeline go; empty: nobody wants to know them.
+/// File of a pipeline's statistics; empty: not wanted.
 std::string pathOf(const Identity& identity) {
     const char* folder = std::getenv("SHUTTER_STATISTICS");
     std::array<char, 24> name{};
@@ -173,7 +173,7 @@ void write(std::FILE* file, const Identity& identity, VkPipeline pipeline) {
     }
 }
 
-/// Stands in for a function that creates pipelines, which it calls for one at a time.
+/// Replaces a function that creates pipelines, and calls it for one at a time.
 template <class Info, class Create>
 VkResult createEach(std::span<const Info> infos, VkPipeline* pipelines, Create create) {
     VkResult result = VK_SUCCESS;

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * The hosts' own rays, in a compute shader (rays.comp), for the pixels that "hybrid" asks for. */
+/* SPDX-License-Identifier: MIT The hosts' own rays, in a compute shader (rays.comp), for the pixels
+ * that "hybrid" requests. */
 #ifndef RAYS_H
 #define RAYS_H
 

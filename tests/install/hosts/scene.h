@@ -1,7 +1,7 @@
-/* SPDX-License-Identifier: MIT
- * What both hosts draw, and the Vulkan around it, in the words that C11 and C++17 share: a striped
- * wall that is static, and a square before it that moves by kMovedPx to the right during the
- * exposure, as images that a renderer would have. The camera is at the origin and looks along -Z.
+/* SPDX-License-Identifier: MIT The scene of both hosts, and the Vulkan around it, in the words that
+ * C11 and C++17 share: a striped wall that is static, and a square before it that moves by kMovedPx
+ * to the right during the exposure, as images that a renderer would have. The camera is at the
+ * origin with -Z forward.
  *
  * With HOST_USES_VOLK the host's functions are volk's variables. */
 #ifndef SCENE_H

@@ -117,7 +117,7 @@ class InputScriptFile : public testing::Test {
         EXPECT_NE(script.error().message.find(":2"), std::string::npos) << script.error().message;
     }
 
-    // Each test has a file of its own, because tests run in parallel.
+    // Each test has a separate file, because tests run in parallel.
     std::filesystem::path mPath = testing::TempDir() +
                                   testing::UnitTest::GetInstance()->current_test_info()->name() +
                                   ".input_script.json";
@@ -285,7 +285,7 @@ TEST(StepClock, APausedGameStandsAndKeepsItsFrame) {
     const FrameTime paused = clock.advance(1.0);
     EXPECT_EQ(paused.steps, 0u);
     EXPECT_DOUBLE_EQ(paused.seconds, 1.0 / 60.0);
-    EXPECT_DOUBLE_EQ(paused.duration, 1.0 / 60.0); // its blur stays to be looked at
+    EXPECT_DOUBLE_EQ(paused.duration, 1.0 / 60.0); // its blur remains visible
     clock.stepOnce(1.0 / 60.0);
     const FrameTime stepped = clock.advance(1.0);
     EXPECT_EQ(stepped.steps, 2u);

@@ -114,7 +114,7 @@ class Terminal {
 
     [[nodiscard]] FILE* file() const { return mSlave; }
 
-    /// What was written since the last call.
+    /// Output since the last call.
     std::string takeOutput() {
         char buffer[1024];
         const ssize_t size = read(mMaster, buffer, sizeof buffer);

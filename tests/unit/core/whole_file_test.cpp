@@ -206,7 +206,7 @@ TEST(WholeFile, ALinkToAPipeOrADeviceIsWrittenTo) {
     );
 }
 
-// `--stats /dev/stdout > file`: what is at the name must not be replaced, nor what was printed cut.
+// `--stats /dev/stdout > file`: the file must not be replaced, nor earlier output truncated.
 TEST(WholeFile, AnOpenFileOfThisProcessIsWrittenWhereItStands) {
     const TempFolder folder;
     const fs::path file = folder.write("out.txt", "");

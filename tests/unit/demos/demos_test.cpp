@@ -50,7 +50,7 @@ DemoControls randomControls(Random& random) {
         .toggleExclusion = random.next() < 0.02};
 }
 
-/// Where everything stands, every bit of it.
+/// All poses, bit for bit.
 std::vector<math::dmat4> poses(const Demo& demo) {
     std::vector<math::dmat4> all;
     for (const ecs::Entity entity : demo.world().registry.entities())

@@ -364,7 +364,7 @@ TEST(Rod, ItsEnergyDoesNotGrowAndItComesToRest) {
         double before = measureEnergy(rod);
         for (int i = 0; i < 120 * 20; ++i) {
             stepRod(rod);
-            // Being pushed out of the ground lifts it by what it sank in one step.
+            // Being pushed out of the ground lifts it by its penetration in one step.
             ASSERT_LE(measureEnergy(rod), before + 0.12 + 0.01 * before) << i;
             before = std::min(before, measureEnergy(rod));
             ASSERT_GE(rod.place.y, 0.0);

@@ -100,7 +100,7 @@ TEST(Environment, HasEveryLevelOfItsBackgroundAndIsNoWiderThanDevicesTake) {
 TEST(Environment, APositiveRotationTurnsItToTheLeft) {
     const auto made = makeEnvironment(makeGrey(64, 32, 1, 0.5f), {.rotationDegrees = 90.0});
     ASSERT_TRUE(made);
-    // What lay ahead now lies on the left: there the map's middle is looked up.
+    // The forward direction is now on the left: the map's middle is there.
     const math::vec3 looked = made.value().mapFromWorld * math::vec3(-1, 0, 0);
     EXPECT_LT(glm::distance(looked, math::vec3(0, 0, -1)), 1e-6f);
 }
@@ -457,7 +457,7 @@ TEST(Prefilter, IsTheIntegralOverGgx) {
 }
 
 TEST(Prefilter, APoleShowsNoSeam) {
-    // The roughest level about the pole: what lies in all its columns must agree.
+    // The roughest level around the pole: all its columns must agree.
     const auto levels =
         prefilterMirrored(draw(256, [](dvec3 d) { return 1.0 + (d.x > 0.0 ? 1.0 : 0.0); }));
     const image::Image& roughest = levels.back();

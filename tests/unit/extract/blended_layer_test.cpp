@@ -168,7 +168,7 @@ TEST_F(BlendedLayers, TheNearestIsDrawnFirstAndPlacesAreOfTheItems) {
 TEST_F(BlendedLayers, WhatIsBesideThePictureIsNotDrawn) {
     move(addBox({200, 0, -10}, glass), {1, 0, 0});
     EXPECT_TRUE(findLayer().empty());
-    // What comes into it within the exposure is.
+    // Surfaces that enter it within the exposure are.
     move(addBox({14, 0, -10}, glass), {-6, 0, 0});
     EXPECT_EQ(findLayer().size(), 1u);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame asks for: deformation, masks, blending, and what may come into sight.
+// Requirements of a frame: deformation, masks, blending, and revealed surfaces.
 #include "engine/extract/demand.h"
 #include "engine/extract/instance_masks.h"
 #include "tests/unit/extract/extraction_fixture.h"
@@ -42,7 +42,7 @@ TEST(Demand, WhatIsDrawnAsksForWhatItNeedsAndSaysHowMuchOfItThereIs) {
     EXPECT_EQ(describe(demand.blending), "ran: 1 blended draw in the picture");
 }
 
-/// Boxes that fill [-1, 1]^3 before a camera at the origin that looks down -Z.
+/// Boxes that fill [-1, 1]^3 in front of a camera at the origin with -Z forward.
 class Backdrop : public Extraction {
   protected:
     ecs::Entity addMover(const math::dvec3& position) {

@@ -139,7 +139,7 @@ TEST_F(ExposureParts, AStepAtAnEndOfTheExposureLeavesOnePartThatDoesNotReachIt) 
 }
 
 TEST_F(ExposureParts, InNoPartAnythingIsBetweenItsPlaces) {
-    // Children of one that steps, a loop that begins anew, keys at nearly the same time.
+    // Children of an entity that steps, a loop that restarts, keys at nearly the same time.
     const ecs::Entity parent = world.registry.create();
     world.registry.add(parent, scene::LocalTransform{});
     world.registry.add(mBox, scene::Parent{parent});

@@ -341,7 +341,7 @@ TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
     EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}, all));
     EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}, all));
     EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}, all));
-    // Only this mesh's joints of a skeleton that several meshes share have a say.
+    // Only this mesh's joints of a shared skeleton count.
     scene::PoseReach first;
     first.joints = {deformed, {}, {}};
     EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), dmat4(1.0)}, {}}, first));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame sees from its camera, and what has no past, is hidden, or is scaled by an artist.
+// A frame's view from its camera, and entities without a past, hidden, or scaled by an artist.
 #include "engine/extract/frame_view.h"
 #include "engine/extract/timed_tables.h"
 #include "engine/math/transform.h"
@@ -54,7 +54,7 @@ TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
     const math::vec4 open = frame.constants.clipFromEyeOpen * ahead;
     const math::vec4 close = frame.constants.clipFromEyeClose * ahead;
     EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
-    // Turned to the left by 0.1 rad: what was ahead is now seen at the right.
+    // Turned to the left by 0.1 rad: the former centre is now at the right.
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
     EXPECT_NEAR(close.x / close.w, std::tan(0.1) * focal, 1e-5);
 }
@@ -132,7 +132,7 @@ TEST_F(Extraction, APerspectivePixelGrowsWithDistance) {
 
 TEST_F(Extraction, ACamerasFrameIsSeenWholeInAPictureOfAnotherShape) {
     auto& lens = world.registry.get<scene::Camera>(camera);
-    const ExtractedFrame plain = extract(); // 200 x 100, no frame of its own
+    const ExtractedFrame plain = extract(); // 200 x 100, without a separate frame
     const auto clip = [](const ExtractedFrame& frame) { return frame.constants.clipFromEye; };
     for (const double narrower : {0.5, 1.0, 2.0, 2.0 + 1e-7}) {
         lens.aspectRatio = narrower;
@@ -163,7 +163,7 @@ TEST_F(Extraction, AnOrthographicFrameIsSeenWholeInAPictureOfAnotherShape) {
     request.frameFit = FrameFit::Height;
     EXPECT_LT(glm::distance(seen(corner), math::vec2(1.5f, -1.0f)), 1e-6f);
     request.frameFit = FrameFit::Whole;
-    lens.xMag = 3.0; // narrower than the picture: more is seen beside it
+    lens.xMag = 3.0; // narrower than the picture: margins are visible
     EXPECT_LT(glm::distance(seen({3, 4, -10}), math::vec2(0.375f, -1.0f)), 1e-6f);
 }
 

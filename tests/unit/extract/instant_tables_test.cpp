@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where surfaces of a raster are seen at other instants, and were in the raster before: held
-// against projecting the same point anew; and when the last raster says nothing.
+// Places of a raster's surfaces at other instants and in the last raster, compared with a
+// projection of the same point; and when the last raster is not used.
 #include "engine/extract/frame_view.h"
 #include "engine/extract/instant_tables.h"
 #include "engine/math/transform.h"

@@ -169,7 +169,7 @@ TEST_F(KeptFrame, WhoeverIsNotWrittenToAnyMoreStandsStillAgainWithOthers) {
     for (const ecs::Entity box : boxes)
         transformOf(box).transform.translation.z = -31.0;
     EXPECT_EQ(update().movingRows.size(), 100u);
-    update(); // nobody is written to
+    update(); // no entity is written to
     EXPECT_TRUE(update().movingRows.empty());
 }
 

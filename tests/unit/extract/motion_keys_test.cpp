@@ -96,7 +96,7 @@ TEST(MotionKeys, ASpinStaysWithinTheTolerance) {
 }
 
 TEST(MotionKeys, WholeTurnsThatFitTheInstantsAreSeen) {
-    // At both ends, or at each sixteenth of the exposure, it stands as at first.
+    // At both ends, or at each sixteenth of the exposure, it has its first pose.
     for (const double turns : {1.0, 16.0, 32.0, 64.0}) {
         const MotionKeys keys =
             compute([&](double s) { return spun(2.0 * glm::pi<double>() * turns * s); });
@@ -147,7 +147,7 @@ TEST(MotionKeys, WhatIsScaledToNothingForAWhileHasKeys) {
 }
 
 TEST(MotionKeys, FarAwayFloatNoiseIsNotChased) {
-    // At 100 km a float tells 8 mm apart; an orthographic pixel may be finer.
+    // At 100 km a float resolves 8 mm; an orthographic pixel may be finer.
     KeyTolerance tolerance;
     tolerance.cameraPath = {dvec3(0.0)};
     tolerance.pixelAnywhere = 1e-6;

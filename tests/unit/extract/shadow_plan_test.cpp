@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which maps a frame's shadows come from, what they see, and that they keep still.
+// The maps of a frame's shadows, their views, and their stability.
 #include "engine/extract/shadow_plan.h"
 #include "engine/extract/shadow_views.h"
 #include "shaders/render/shadow_filter.glsl"
@@ -45,7 +45,7 @@ class ShadowPlanOfScenes : public Extraction {
 
 TEST_F(ShadowPlanOfScenes, CascadesBeginWhereTheSceneDoes) {
     EXPECT_TRUE(isNearestInFinest());
-    // Its box says nothing of how near what surrounds the camera comes.
+    // A box that surrounds the camera gives no bound for the distance.
     addBox(math::Transform{.translation = dvec3(0), .scale = dvec3(60.0)});
     EXPECT_TRUE(isNearestInFinest());
     addBox(math::Transform{.translation = dvec3(0, 0, -1.5), .scale = dvec3(0.1)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where receivers are looked up in the layers of movers over the exposure, and in which tiles.
+// Lookup of receivers in the layers of movers over the exposure, and the tiles.
 #include "engine/extract/shadow_runs.h"
 #include "engine/extract/shadow_tiles.h"
 #include "shaders/render/shadow_filter.glsl"
@@ -76,7 +76,7 @@ struct MoverBeforeLight {
         return makeRuns(caster, path, layers, toLight, runInstants(), eye);
     }
 
-    /// The layer that an instant of the exposure is looked up in.
+    /// The layer for an instant of the exposure.
     [[nodiscard]] const MoverLayer& layerOf(const shader::ShadowRun& run) const {
         return *std::find_if(layers.begin(), layers.end(), [&](const MoverLayer& layer) {
             return layer.firstTexel == run.firstTexel;
@@ -210,8 +210,8 @@ TEST_F(ShadowRuns, ASlopeIsExactOnAPlane) {
     }
 }
 
-/// Where the ray that comes to a point along the light, as a turned mover sees it, is looked up:
-/// the point itself in the layer's own view.
+/// Lookup position of the ray to a point along the light in a rotated mover's space: the point
+/// itself in the layer's view.
 dvec3 lookUp(
     const ShadowCaster& caster, const dmat4& turn, const dvec3& toLight, const dvec3& point
 ) {
@@ -284,7 +284,7 @@ class ShadowTilesOfScenes : public testing::Test {
             uniform(box.min.z, box.max.z)};
     }
 
-    /// A camera somewhere in the scene, or beside it, that looks at a place in it.
+    /// A camera in the scene, or next to it, that faces a place in it.
     ShadowPicture makePicture() {
         ShadowPicture picture;
         picture.sizePx = {333, 177}; // not of whole tiles

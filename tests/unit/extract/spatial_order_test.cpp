@@ -101,7 +101,7 @@ TEST(SpatialOrder, AnyBoxesGetAPermutation) {
 }
 
 TEST(SpatialOrder, TwoClustersEndInDifferentHalves) {
-    // The third of three boxes stands beside the first: they must share the left half.
+    // The third of three boxes is next to the first: they must share the left half.
     const std::vector<Box> boxes = {
         {vec3(0.0f), vec3(1.0f)}, {vec3(100.0f), vec3(101.0f)}, {vec3(1.0f), vec3(2.0f)}};
     const std::vector<uint32_t> order = computeSpatialOrder(boxes);

@@ -289,7 +289,7 @@ TEST(Flythrough, AShutterStandsFromItsKeyToTheNext) {
     EXPECT_EQ(at(0.25).mode, scene::ShutterMode::Angle);
     EXPECT_EQ(at(1.9).angleDegrees, 180.0);
     EXPECT_EQ(at(1.9).phase, scene::ShutterPhase::Centre);
-    // The last tells a phase alone: the rest is what the caller has.
+    // The last has only a phase: the rest is the caller's.
     EXPECT_EQ(at(2.0).phase, scene::ShutterPhase::Start);
     EXPECT_EQ(at(2.0).exposureSeconds, 9.0);
     Flythrough silent = flythrough;
@@ -354,7 +354,7 @@ TEST(TimeRamp, OneScaleHoldsForAllTime) {
 }
 
 TEST(TimeRamp, FilmTimeIsTheSumOfSceneTimeOverItsScale) {
-    // Down to a tenth, up to twice, with a key between that tells nothing.
+    // Down to a tenth, up to twice, with a key without a scale between.
     const TimeRamp ramp =
         makeRamp({{-1.0, 1.0}, {0.5, 0.1}, {1.0, std::nullopt}, {2.0, 2.0}, {3.0, 2.0}});
     constexpr int kSteps = 200000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Skins and morph targets: what vertices, nodes and clips say of them.
+// Skins and morph targets in vertices, nodes and clips.
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
 #include "tests/unit/gltf/gltf_fixture.h"
@@ -71,7 +71,7 @@ TEST(GltfSkin, ASkinnedNodeKnowsItsJointsAndItsMeshItsInfluences) {
     ASSERT_EQ(skinned.joints.size(), 2u);
     const dmat4 lower = scene::worldFromEntity(world, skinned.joints[1], 0.0);
     EXPECT_EQ(dvec3(lower[3]), dvec3(1, 2, 0));
-    // Flat normals give every triangle corners of its own: influences follow.
+    // Flat normals give every triangle separate corners: influences follow.
     const scene::Primitive& primitive = primitiveOf(scene);
     EXPECT_EQ(primitive.influenceCount, 4u);
     EXPECT_EQ(primitive.joints, (std::vector<uint16_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}));
@@ -152,7 +152,7 @@ TEST(GltfSkin, AMeshWithoutInfluencesFollowsTheFirstJoint) {
 }
 
 TEST(GltfSkin, JointsOutsideOfTheSceneMoveTheSkinButDrawNothing) {
-    // 2 is a joint, 1 is above it, 3 is beside it.
+    // 2 is a joint, 1 is its parent, 3 its sibling.
     const LoadedScene scene = expectLoads(makeSkinned().load(
         kMesh + R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"skin":0},
         {"children":[2,3],"translation":[5,0,0],"mesh":0},{"translation":[0,1,0],"mesh":0},{}],)" +

@@ -70,7 +70,8 @@ class GltfFile {
         return int(mAccessors.size()) - 1;
     }
 
-    /// The file with `members` (`"key":value,...`) beside asset, buffers, views and accessors.
+    /// The file with `members` (`"key":value,...`) in addition to asset, buffers, views and
+    /// accessors.
     [[nodiscard]] std::string json(const std::string& members) const {
         std::string text = R"({"asset":{"version":"2.0"})";
         if (!mBin.empty()) {

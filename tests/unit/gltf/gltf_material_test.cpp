@@ -60,7 +60,7 @@ TEST(GltfMaterial, ABlendModeStandsBeforeTheMaterialsOwn) {
     EXPECT_EQ(added.blendMode, scene::BlendMode::Add);
     EXPECT_EQ(read(R"("alphaMode":"PREMULT")").blendMode, scene::BlendMode::Premultiplied);
     EXPECT_EQ(read(R"("alphaMode":"BLEND")").alphaMode, scene::AlphaMode::Blend);
-    // Modes that are not drawn fall back, as the draft asks.
+    // Modes that are not drawn fall back, as the draft requires.
     for (const char* mode : {R"("alphaMode":"MULTIPLY")", ""})
         EXPECT_EQ(read(mode).alphaMode, scene::AlphaMode::Mask) << mode;
 }

@@ -207,7 +207,7 @@ TEST(MemoryType, OnlyTypesThatTheResourceAllowsAreNamed) {
     EXPECT_TRUE(rankMemoryTypes(memory, 1u << 7, MemoryUse::Stream, kMebi).empty());
 }
 
-/// Allocates in a machine whose `full` types have no room; notes what was asked.
+/// Allocates in a machine whose `full` types have no room; records the requests.
 std::pair<TypeAttempt, std::vector<uint32_t>> tryTypes(
     const std::vector<uint32_t>& types, const std::vector<uint32_t>& full, VkResult otherwise
 ) {

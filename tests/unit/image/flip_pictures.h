@@ -10,7 +10,7 @@
 
 namespace shutter::image {
 
-/// Eight bits a channel, interleaved RGB.
+/// Eight bits per channel, interleaved RGB.
 struct BytePicture {
     uint32_t width = 0;
     uint32_t height = 0;

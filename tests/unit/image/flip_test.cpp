@@ -13,7 +13,7 @@
 namespace shutter::image {
 namespace {
 
-/// What FLIP's authors' own tool says: github.com/NVlabs/flip, commit 1eb247c (after version 1.6),
+/// Results of FLIP's authors' own tool: github.com/NVlabs/flip, commit 1eb247c (after version 1.6),
 /// FLIP::evaluate of src/cpp/FLIP.h on the CPU, built with g++ 12.2 -O2, LDR, default parameters,
 /// given makePicturePair(name) decoded by its own sRGBToLinearRGB.
 struct Published {

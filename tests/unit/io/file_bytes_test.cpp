@@ -388,7 +388,7 @@ TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
     ASSERT_TRUE(second.ok());
     EXPECT_EQ(second.value().codec, "mpeg4");
     EXPECT_FALSE(pretend(" V gif x").ok());
-    // What was wanted by name has no substitute.
+    // A codec requested by name has no substitute.
     const auto deep = pretend(" V mpeg4 x\n V libx264 y", {VideoCodec::H264, 10, ""});
     ASSERT_TRUE(deep.ok()) << deep.error().message;
     EXPECT_EQ(deep.value().codec, "libx264");

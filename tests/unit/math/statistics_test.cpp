@@ -182,7 +182,7 @@ TEST(BlueNoise, SoDoFewSetsOfItHoweverItIsTurned) {
         EXPECT_LT(measureLowPower(toSets(ranks, turn, 5), 8), 0.06) << turn;
 }
 
-// What crosses the border is as evenly spread as what does not: the same mask begun elsewhere.
+// Points across the border are as evenly spread as others: the same mask with another origin.
 TEST(BlueNoise, Tiles) {
     const Ranks ranks = makeBlueNoise(kSide, kSeed);
     const auto closest = [&](bool acrossBorder) {

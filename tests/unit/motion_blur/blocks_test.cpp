@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which blocks work, which pixels of them trace, and what is made of their rays.
+// Active blocks, their traced pixels, and the use of their rays.
 #include "shaders/motion_blur/block_class.glsl"
 #include "shaders/motion_blur/denoise.glsl"
 #include "shaders/motion_blur/mask_bits.glsl"
@@ -258,7 +258,7 @@ TEST(RayMask, ASharperEdgeMeasuresMoreAndNeverAboveOne) {
         EXPECT_LT(measure, 1.0f);
         last = measure;
     }
-    // The sky's depth beside a near surface.
+    // The sky's depth next to a near surface.
     EXPECT_LE(edgeMeasure(vec2(48.0e9f, 0.0f), vec3(0.0f), vec3(0.0f)), 1.0f);
 }
 

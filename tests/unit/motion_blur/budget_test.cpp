@@ -38,7 +38,7 @@ struct Load {
     }
 };
 
-/// Numbers in [-1, 1) that look random and are the same everywhere.
+/// Pseudo-random numbers in [-1, 1), the same everywhere.
 double noise(uint32_t& state) {
     state = state * 1664525u + 1013904223u;
     return (state >> 8) / double(1u << 23) - 1.0;

@@ -175,7 +175,7 @@ TEST(Taps, AResponseHasThemAtTheTimesOfItsLight) {
     for (const float share : kShares)
         for (uint i = 0; i < 16; ++i) {
             const float even = tapPosition(i, 0.5f, 16, share);
-            // What is seen at u was there at s = s_r - u.
+            // The surface at u was there at s = s_r - u.
             const double s = std::sqrt(double(share) - double(even));
             EXPECT_NEAR(warpTap({table}, even, share), double(share) - s, 1e-6);
         }
@@ -269,7 +269,7 @@ TEST(OwnVelocity, AStillOccluderCoversNothingButItself) {
 }
 
 TEST(OwnVelocity, InAOneSidedExposureTheSideCounts) {
-    // Ends at the raster instant: only what moves towards the offset has come from over the pixel.
+    // Ends at the raster instant: only motion towards the offset has passed the pixel.
     EXPECT_TRUE(couldCover(vec2(8.0f, 0.0f), vec2(9.0f, 0.0f), 1.0f));
     EXPECT_FALSE(couldCover(vec2(8.0f, 0.0f), vec2(-9.0f, 0.0f), 1.0f));
     EXPECT_FALSE(couldCover(vec2(8.0f, 0.0f), vec2(9.0f, 0.0f), 0.0f));
@@ -277,7 +277,7 @@ TEST(OwnVelocity, InAOneSidedExposureTheSideCounts) {
 }
 
 TEST(Guertin2014, OnlyTilesWhoseLinePassesReachThisOne) {
-    // Beside: any motion with a part along the axis, either way. On the diagonal: along it only.
+    // Adjacent: any motion with a part along the axis, either way. On the diagonal: along it only.
     EXPECT_TRUE(reachesTile(ivec2(1, 0), vec2(0.1f, 9.0f)));
     EXPECT_TRUE(reachesTile(ivec2(1, 0), vec2(-0.1f, 9.0f)));
     EXPECT_FALSE(reachesTile(ivec2(1, 0), vec2(0.0f, 9.0f)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker says of frames made in main memory, and the panels that show a host's inputs.
+// The checker on frames made in main memory, and the panels that show a host's inputs.
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_overlay.h"
@@ -143,7 +143,7 @@ class CheckedWorld {
 
 using Change = void (*)(CheckFacts&, const CheckedWorld&, double frames);
 
-/// All that is said of three frames.
+/// All sentences for three frames.
 std::string check(const CheckedWorld& world, Change change = nullptr) {
     std::string all;
     std::unique_ptr<CheckedFrame> last;
@@ -209,7 +209,7 @@ TEST(HostCheck, MatricesThatAreTheSameAreNamedWhereTheMoverMoves) {
     EXPECT_NE(check(CheckedWorld(), change).find("the same at all keys"), std::string::npos);
 }
 
-/// What is said of a mover that deforms, whose displacements are changed.
+/// Sentences for a deforming mover whose displacements are changed.
 std::string checkDeformedBy(math::vec4 (*change)(const math::vec4&)) {
     std::string all;
     auto frame = CheckedWorld().draw(1.0);
@@ -351,7 +351,7 @@ TEST(HostOverlay, APanelIsLeftOutWhereItsInputIsNotThere) {
     inputs.convention.cameras = makeInputs(dmat4(1.0), dmat4(1.0)).convention.cameras;
     EXPECT_TRUE(has(shader::kPanelCamera) && has(shader::kPanelObjects));
     EXPECT_TRUE(has(shader::kPanelWorld) && has(shader::kPanelJitter));
-    // Nobody says what share of a frame motionDepth is over.
+    // The exposure of motionDepth is unknown.
     inputs.motionDepth.image = reinterpret_cast<VkImage>(uintptr_t{1});
     EXPECT_TRUE(has(shader::kPanelCamera));
     EXPECT_FALSE(has(shader::kPanelObjects));

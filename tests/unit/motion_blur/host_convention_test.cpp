@@ -132,7 +132,7 @@ TEST(HostConvention, TheSkyIsToldByItsValue) {
     EXPECT_EQ(shader::metresOfDepth(linear, 500.0f), 5.0f) << "centimetres";
     EXPECT_EQ(shader::metresOfDepth(linear, 6000.0f), shader::kSkyDepth);
     EXPECT_EQ(shader::metresOfDepth(linear, 7000.0f), shader::kSkyDepth);
-    // Reversed and infinite: the buffer's 0 is infinitely far whatever the host says.
+    // Reversed and infinite: the buffer's 0 is infinitely far, regardless of skyValue.
     const shader::PrepareTable infinite = makePrepareTable(
         makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)}), kPicture
     );
@@ -199,7 +199,7 @@ TEST(HostConvention, TheSkyMovesAsTheCameraTurns) {
 TEST(HostConvention, WhatComesFromBehindTheCameraMovesAFiniteWay) {
     HostConvention convention =
         makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)});
-    // The camera went back by 3 m: what is 2 m ahead of it now was 1 m behind it.
+    // The camera went back by 3 m: a point 2 m ahead of it now was 1 m behind it.
     convention.cameras.viewFromWorldBefore = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 3.0));
     const shader::PrepareTable table = makePrepareTable(convention, kPicture);
     const glm::vec2 motion = shader::motionOfCamera(table, {150.0f, 50.0f}, 2.0f);

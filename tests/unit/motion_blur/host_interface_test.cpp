@@ -61,7 +61,7 @@ TEST(HostSentences, NameNoFieldThatThePublicHeaderLacks) {
     std::set<std::string> known(inHeader.begin(), inHeader.end());
     for (const auto& row : listSettingRows())
         known.insert(std::string(row.name));
-    // Vulkan's, and matrices by what they lead from.
+    // Vulkan's names, and matrices by their source space.
     known.insert({"apiVersion", "maxImageDimension2D"});
     // Rays through tables and a response on the device, which the tree alone gives.
     const std::set<std::string> internal{

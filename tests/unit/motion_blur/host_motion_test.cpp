@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host says of its motion: where its surfaces are seen at the instants, and what is refused.
+// Motion of a host: places of surfaces at the instants, and refusals.
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/embedding/host_instants.h"
@@ -23,7 +23,7 @@ using math::LayerTables;
 using math::vec3;
 using math::vec4;
 
-/// A host whose camera goes and turns, and what it says of it.
+/// A host with a moving and rotating camera.
 class HostMotionFixture : public ::testing::Test {
   protected:
     static constexpr uint32_t kInstants = 5;

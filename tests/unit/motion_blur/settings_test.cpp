@@ -175,7 +175,7 @@ TEST(MotionBlurSettings, TheHybridMethodsOwnBlockHoldsItsSettings) {
     EXPECT_EQ(own().flags, shader::kFlagSteppingReveal);
 }
 
-/// A setting that changed nothing of what its method's shaders get would be read by nobody.
+/// A setting that changes no input of its method's shaders is never read.
 TEST(MotionBlurSettings, EachSettingOfAMethodReachesItsShaders) {
     const auto bytes = [](const MotionBlurSettings& settings) {
         const PassParams params = resolve(settings, 640, 360, 0.5);
@@ -214,7 +214,7 @@ TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {
 
 using Row = core::SettingRow<MotionBlurSettings>;
 
-/// Sets the field without a look at the row's range.
+/// Sets the field without validating the row's range.
 void force(const Row& row, MotionBlurSettings& settings, double value) {
     if (const auto* whole = std::get_if<uint32_t MotionBlurSettings::*>(&row.field))
         settings.** whole = static_cast<uint32_t>(value);
@@ -283,7 +283,7 @@ TEST(SettingRows, EveryNameLabelAndMeaningIsThereOnce) {
     EXPECT_EQ(names.size(), listSettingRows().size());
 }
 
-/// A field without a row would be validated, saved and shown by nobody.
+/// A field without a row would never be validated, saved or shown.
 TEST(SettingRows, EveryFieldHasARow) {
     EXPECT_EQ(countFields<MotionBlurSettings>(), listSettingRows().size() + 1) << "and `method`";
 }

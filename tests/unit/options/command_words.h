@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options as words of a command line, and what is said of wrong ones.
+// Options as words of a command line, and the errors for wrong ones.
 #pragma once
 
 #include "engine/core/result.h"
@@ -25,7 +25,7 @@ template <class T> [[nodiscard]] std::string wordOf(const T& value) {
 template <class Define> [[nodiscard]] core::Status parseWords(Words words, const Define& define) {
     CLI::App app;
     define(app);
-    // An empty value has to be a word of its own, or the next word is taken for it.
+    // An empty value has to be a separate word, or the next word is taken for it.
     for (size_t i = 0; i < words.size(); ++i)
         if (words[i].size() > 2 && words[i].back() == '=') {
             words[i].pop_back();

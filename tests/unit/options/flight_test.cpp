@@ -240,17 +240,17 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
     const std::map<std::string, Words> doesNot = {
         {"--advice", {"--advice"}},
         {"--bit-depth", {}},                      // needs a film
-        {"--allow-outside", {"--allow-outside"}}, // told by content
+        {"--allow-outside", {"--allow-outside"}}, // identified by content
         {"--codec", {}},                          // needs a film
         {"--device", {"--device", "llvmpipe"}},
         {"--dry-run", {"--dry-run"}},
         {"--dump-graph", {"--dump-graph"}},
-        {"--environment", {"--environment", "e.hdr"}}, // told by content
+        {"--environment", {"--environment", "e.hdr"}}, // identified by content
         {"--explain", {"--explain"}},
         {"--ffmpeg", {}},                             // needs a film
-        {"--flythrough", {"--flythrough", "f.json"}}, // told by content
+        {"--flythrough", {"--flythrough", "f.json"}}, // identified by content
         {"--frames", {"--frames", "0:3"}},
-        {"--framing-time", {"--framing-time", "1"}}, // told as it is resolved
+        {"--framing-time", {"--framing-time", "1"}}, // identified as resolved
         {"--hash-passes", {"--hash-passes", "h.json"}},
         {"--keep-frames", {}}, // needs a film
         {"--out", {}},

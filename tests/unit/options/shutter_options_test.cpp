@@ -157,7 +157,7 @@ TEST(ShutterOptions, BlurScalesLieBetweenNothingAndDouble) {
 }
 
 TEST(ShutterOptions, EachOptionIsReadAndTellsPicturesApart) {
-    // What is typed, and the whole line of each must differ from all others.
+    // Arguments whose fingerprints must all differ.
     const std::vector<std::vector<std::string>> lines = {
         {},
         {"--exposure", "0.5"},

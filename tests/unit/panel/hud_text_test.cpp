@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the head-up display says of the method: a budget that takes something away is named.
+// The head-up display's text of the method: a budget that reduces quality is named.
 #include "game/play/panel/panel_sections.h"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ class PlaySettingsFile : public ::testing::Test {
         return text.str();
     }
 
-    /// What loading says of that text: an error without the path, or nothing.
+    /// The error of loading that text, without the path, or nothing.
     [[nodiscard]] std::string refuse(const std::string& text) const {
         std::ofstream(mPath) << text;
         const auto loaded = game::loadPlaySettings(mPath);

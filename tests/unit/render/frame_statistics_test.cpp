@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame says of itself: statistics, reasons, idle time.
+// Reports of a frame: statistics, reasons, idle time.
 #include "engine/render/explainer.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/renderer.h"
@@ -125,7 +125,7 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     EXPECT_EQ(explainer.finish(graph, plan, false).size(), 1u);
     EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Blur}))
         << "of \"draw\" and \"blur\"";
-    // The pass of the same name is not what was decided.
+    // The pass of the same name is not the decision.
     ASSERT_NE(findDecision(all, "blur"), nullptr);
     EXPECT_EQ(findDecision(all, "blur")->reason, "something moves");
     EXPECT_EQ(findDecision(all, "draw"), nullptr);

@@ -48,7 +48,7 @@ double integrateByHalfVectors(vec3 baseColor, float metallic, float roughness, v
     return sum / (kRings * kSteps);
 }
 
-/// The same over directions, placed by their cosine: for what has no sharp highlight.
+/// The same over directions, placed by their cosine: for surfaces without a sharp highlight.
 double integrateByDirections(vec3 baseColor, float metallic, float roughness, vec3 v) {
     constexpr int kRings = 256;
     constexpr int kSteps = 256;

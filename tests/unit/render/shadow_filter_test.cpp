@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where shadow maps are looked up, and what their texels say.
+// Lookup and filtering of shadow maps.
 #include "engine/extract/shadow_views.h"
 #include "engine/math/math.h"
 #include "shaders/render/shadow_filter.glsl"
@@ -19,7 +19,7 @@ ShadowPlace placeAt(const dmat4& clipFromWorld, const dvec3& point) {
     return placeInMap(vec4(clipFromWorld * dvec4(point, 1.0)), vec2(0.0f), kSize);
 }
 
-/// Depths of a plane at two places of a map, and what its slope at one says of the other.
+/// Depths of a plane at two places of a map, and the prediction of one by the slope at the other.
 /// \param light its place
 void expectSlope(
     const extract::LightView& view,
@@ -75,7 +75,7 @@ TEST(ShadowFilter, WeightsSumToOneAndAreEvenAtTheCentre) {
     EXPECT_NEAR(splineWeights(0.5f).z, splineWeights(-0.5f).y, 1e-6f);
 }
 
-/// What filterMap() adds up where all nine texels let light through, or none does.
+/// The sum of filterMap() if all nine texels transmit light, or none does.
 float addTexels(float right, float down, float caster) {
     const vec3 across = splineWeights(right);
     const vec3 rows = splineWeights(down);

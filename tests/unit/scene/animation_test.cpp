@@ -204,7 +204,7 @@ TEST_F(SampleAnimated, AnInactiveClipLeavesTheEarlierOneOrTheRestPose) {
     EXPECT_EQ(sampleX(1.0), 1.0);
     mPlayback.activeClips = {false, false};
     EXPECT_EQ(sampleX(1.0), -1.0);
-    mPlayback.activeClips = {}; // nothing said: all play
+    mPlayback.activeClips = {}; // unset: all play
     EXPECT_EQ(sampleX(1.0), 101.0);
 }
 
@@ -251,7 +251,7 @@ class ClipJumpsTest : public testing::Test {
         return entity;
     }
 
-    /// Drives an entity along x by a clip of its own.
+    /// Drives an entity along x by a separate clip.
     void animate(
         ecs::Entity entity,
         Interpolation interpolation,

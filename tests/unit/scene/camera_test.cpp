@@ -197,7 +197,7 @@ TEST(AddFramingCamera, SeesTheWholeSceneAndFillsThePictureAtAnySizeAndAspect) {
     struct Case {
         dvec3 min;
         dvec3 max;
-        double leastReach; // a line along the view looks short
+        double leastReach; // a line along the view is foreshortened
     };
 
     const Case cases[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Skins and morph targets at a time, and the bounds of what they deform.
+// Skins and morph targets at a time, and the bounds of the deformed meshes.
 #include "engine/math/transform.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/deformed_bounds.h"
@@ -504,7 +504,7 @@ TEST(DeformedBounds, WithoutADeformationAreTheRestBounds) {
     EXPECT_EQ(bounds.max, rest.max);
 }
 
-/// Two vertices, one a joint, the second also a target.
+/// Two vertices, one per joint, the second also with a target.
 Primitive makeTwoPoints() {
     Primitive primitive;
     primitive.positions = {vec3(0.0f), vec3(1.0f, 0.0f, 0.0f)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has a past: events in a world, and motion that a simulation records.
+// History: events in a world, and motion that a simulation records.
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "engine/scene/path.h"
@@ -46,7 +46,7 @@ class History : public testing::Test {
         return {mWorld, mCamera, computeExposure(mShutter, raster, 0.1)};
     }
 
-    /// Where it moves, it moves as ever; where it is held, it stands where the raster has it.
+    /// Where it moves, its motion is unchanged; where it is held, it has its place in the raster.
     void expectHeld(ecs::Entity entity, bool held, double raster = 1.0) const {
         const ExposureMotion now = motion(raster);
         EXPECT_EQ(now.mayMove(entity), !held);

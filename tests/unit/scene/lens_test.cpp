@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lens: the shape of its opening, what it does to points, its keys, and what is refused.
+// The lens: the shape of its opening, its effect on points, its keys, and refusals.
 #include "engine/scene/lens.h"
 
 #include <gtest/gtest.h>

@@ -48,7 +48,7 @@ class WorldFromEntity : public testing::Test {
     World mWorld;
 };
 
-/// What looks along -Z, below a parent that scales.
+/// An entity with -Z forward, below a parent that scales.
 class WorldFromRigid : public WorldFromEntity {
   protected:
     void expectSame(ecs::Entity entity, const dmat4& expected) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths, and those that look straight down or up, or at where they are.
+// Paths, also with targets straight down or up, or at the camera itself.
 #include "engine/scene/motion.h"
 #include "engine/scene/path.h"
 #include "tests/unit/scene/near.h"
@@ -151,7 +151,7 @@ TEST(Path, UntilACutItStaysAtTheKeyBefore) {
     EXPECT_EQ(placeAt(path, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(placeAt(path, 1.999999), dvec3(1, 0, 0));
     EXPECT_EQ(placeAt(path, 2.0), dvec3(50, 0, 0));
-    // Each shot is a curve of its own: two keys are a straight line.
+    // Each shot is a separate curve: two keys are a straight line.
     expectNear(placeAt(path, 0.5), {0.5, 0, 0});
     expectNear(placeAt(path, 2.5), {50.5, 0, 0});
     EXPECT_TRUE(hasCutWithin(path, 1.5, 2.5));
@@ -160,7 +160,7 @@ TEST(Path, UntilACutItStaysAtTheKeyBefore) {
     EXPECT_FALSE(hasCutWithin(path, 0.0, 1.9));
 }
 
-/// A hold of two seconds between two ways, by each way of telling a direction.
+/// A hold of two seconds between two ways, by each kind of direction.
 std::vector<PathMotion> listHolds() {
     PathMotion held;
     held.keys = {
@@ -298,7 +298,7 @@ double degreesBetween(const dmat3& a, const dmat3& b) {
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
-/// Turns no faster than `degreesPerSecond` anywhere, and looks at the origin.
+/// Turns no faster than `degreesPerSecond` anywhere, and faces the origin.
 void expectSmooth(const PathMotion& path, double degreesPerSecond) {
     constexpr double kStep = 1.0 / 1024.0; // falls on keys and on their middles
     dmat3 last = axesAt(path, path.keys.front().seconds);
@@ -463,7 +463,7 @@ TEST(LookAt, AtItsOwnPlaceItLooksTheWayThatItComesOrGoes) {
             expectNear(axesAt(goes, t)[2], glm::normalize(dvec3(3, 1, 4)), 1e-6);
             expectUpright(axesAt(goes, t));
         }
-        // Through it: behind it, it looks back, upright.
+        // Through it: behind it, the view faces back, upright.
         const PathMotion through =
             makePath({lookingKey(0, {3, 1, 4}), lookingKey(1, {-3, -1, -4})}, interpolation);
         for (const double t : {0.25, 0.5, 0.75, 1.0})

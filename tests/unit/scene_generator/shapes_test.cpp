@@ -36,7 +36,7 @@ double computeVolume(const Shape& shape) {
 }
 
 /// Edges that do not have as many triangles on one side as on the other, by place (0.01 mm), not by
-/// index: seams have vertices of their own.
+/// index: seams have separate vertices.
 size_t countOpenEdges(const Shape& shape) {
     using Place = std::tuple<long, long, long>;
     const auto placeOf = [&](uint32_t index) {

@@ -14,7 +14,7 @@ PassGroup groupIn(const char* method, PassOwner owner) {
     return groupOf(*findMethod(method).value(), owner);
 }
 
-/// Says no more of itself than it must.
+/// An effect with the minimal interface.
 class PlainEffect : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "plain"; }
 

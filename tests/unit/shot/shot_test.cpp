@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn: clips, instants, methods and which passes count as theirs.
+// Clips, instants, methods and the passes that count as theirs.
 #include "game/shot/clips.h"
 #include "game/shot/methods.h"
 #include "game/shot/picture_drawer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of the colour that was kept of a pixel, and where frames sample the pixel.
+// The update of a pixel's accumulated colour, and the sample places of frames.
 #include "modules/taa/taa.h"
 #include "shaders/render/scene_shared.h"
 #include "shaders/taa/taa.glsl"
@@ -81,7 +81,7 @@ TEST(TaaColor, WhatADisplayShowsStaysLinearAndABrightSampleDoesNotOutweighIt) {
 
 constexpr Kept kNothing{shader::ivec3(0), 0.0f, 0u};
 
-/// Where what is static looks as it did, whatever lies around.
+/// Where static surfaces are unchanged, with any neighbours.
 Kept add(float grey, Kept last) {
     return shader::addFrame(vec3(grey), last, false, makeMoments(0.0f, 0.0f));
 }

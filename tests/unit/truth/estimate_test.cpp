@@ -45,7 +45,7 @@ TEST(Estimate, TheErrorIsHalfTheDifferenceOfTheMeans) {
 
 TEST(Estimate, TheErrorsSquareIsTheVarianceOfTheMeanOfStratifiedSets) {
     // Each set is 8 jittered strata of x^2, the kind of set that the spread of its own samples
-    // would give five times the error it has.
+    // would overestimate the error by a factor of five.
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     const auto drawSet = [&] {
