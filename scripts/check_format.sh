@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Checks that the C++ files are formatted as .clang-format says; with --fix, formats them.
+# Checks that the C++ files are formatted by .clang-format; with --fix, formats them.
 set -euo pipefail
 
 script_name=check_format

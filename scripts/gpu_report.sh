@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Measures the motion blur on a graphics card and writes one file to send: the card, milliseconds and
-# megabytes of each pass at three sizes, what validation says, and how far the pictures are from those
-# of Mesa's software device.
+# Measures the motion blur on a graphics card and writes one file to send: the card, milliseconds
+# and megabytes of each pass at three sizes, validation messages, and how far the pictures are from
+# those of Mesa's software device.
 set -euo pipefail
 
 script_name=gpu_report
@@ -40,8 +40,8 @@ TEXT
 # A file of the work folder that holds what failed, for shot $1, method or step $2 and size $3.
 failure_file() { printf '%s/%s_%s_%s.error' "$work" "$1" "$2" "$3"; }
 
-# Draws shot $1 with method $2 at size $3 into $4, with the options that follow. What the program says
-# goes to the failure file, which is left where it fails.
+# Draws shot $1 with method $2 at size $3 into $4, with the options that follow. The program's
+# messages go to the failure file, which remains on failure.
 draw() {
     local shot=$1 method=$2 size=$3 picture=$4 said
     local options=(--unlit --exposure 0.016666667 --fps 30)

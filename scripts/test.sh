@@ -19,7 +19,7 @@ run_ctest() {
     ctest --preset release -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
 }
 
-# A choice of tests says nothing about those that skip.
+# A selection of tests does not check those that skip.
 if (($#)); then
     run_ctest "$@"
     exit

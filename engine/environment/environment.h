@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a picture of all directions to what a scene is lit by.
+// Converts an equirectangular picture to image-based light.
 #pragma once
 
 #include "engine/core/result.h"

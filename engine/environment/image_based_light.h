@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a picture of all directions gives to surfaces: the irradiance on diffuse ones and what
-// glossy ones mirror.
+// Light from an equirectangular picture: irradiance for diffuse surfaces and prefiltered
+// reflections for glossy ones.
 #pragma once
 
 #include "engine/image/image.h"

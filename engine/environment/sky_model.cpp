@@ -39,7 +39,7 @@ dvec3 zenithOf(double t, double theta) {
     return {x, y, std::max(luminance, 0.0)};
 }
 
-/// CIE xyY to linear Rec. 709, IEC 61966-2-1; what its gamut does not hold is clipped.
+/// CIE xyY to linear Rec. 709, IEC 61966-2-1; values outside of its gamut are clipped.
 dvec3 toRgb(dvec3 xyY) {
     const double y = std::max(xyY.y, 1.0e-6);
     const dvec3 xyz(xyY.x * xyY.z / y, xyY.z, (1.0 - xyY.x - xyY.y) * xyY.z / y);

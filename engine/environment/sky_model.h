@@ -14,7 +14,7 @@ inline constexpr double kMostTurbidity = 10.0; ///< haze
 struct SkySettings {
     double turbidity = 2.5;           ///< [kLeastTurbidity, kMostTurbidity]
     math::dvec3 toSun{0.0, 1.0, 0.0}; ///< unit, world
-    math::vec3 sunIlluminance{1.0f};  ///< what the scene's sun gives a surface facing it; linear
+    math::vec3 sunIlluminance{1.0f};  ///< from the scene's sun on a surface facing it; linear
     double intensity = 1.0;           ///< factor over the physical sky, [0, 1000]
     math::vec3 groundAlbedo{0.20f, 0.19f, 0.17f};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a frame calls for, each with its reason: work runs because something in the extracted frame
-// wants it. Pure functions.
+// Decides which work a frame needs, each with its reason: work runs because something in the
+// extracted frame wants it. Pure functions.
 #pragma once
 
 #include "engine/core/result.h"
@@ -8,7 +8,7 @@
 
 namespace shutter::extract {
 
-/// What the renderer draws besides opaque meshes that keep their shape.
+/// Requirements beyond opaque meshes that do not deform.
 struct SurfaceDemand {
     core::Decision deformation; ///< "deform meshes": a skin, morph target or wave that is drawn
     core::Decision alphaMask;   ///< draws that test alpha

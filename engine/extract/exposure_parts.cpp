@@ -77,7 +77,7 @@ class JumpSight {
     /// \param jump in the exposure's time
     [[nodiscard]] bool sees(ecs::Entity entity, uint32_t mesh, const scene::Jump& jump) const;
 
-    /// The same of what the camera shows, however near.
+    /// The same for the camera's view, at any distance.
     [[nodiscard]] bool seesCamera(const scene::Jump& jump) const;
 
   private:
@@ -103,7 +103,7 @@ class JumpSight {
     const scene::ExposureMotion& mMotion;
     const scene::Camera& mCamera;
     KeyTolerance mTolerance;
-    math::Bounds mNearView; ///< what the camera sees from the near plane, its own space
+    math::Bounds mNearView; ///< the camera's view volume from the near plane, in its own space
     math::dvec3 mEye{0.0};  ///< world space: origin of eye space
 };
 

@@ -86,7 +86,7 @@ class FrameExtractor {
     /// A row, kLatent or kNone. \param entity index
     [[nodiscard]] uint32_t rowOf(uint32_t entity) const;
     bool becomesDrawable(const Frame& frame, uint32_t entity);
-    /// What the cap has a share for moves, whether it does in the world or not.
+    /// Entities with a share of the cap count as moving, even if static in the world.
     void refreshCapped(const Frame& frame);
     void takeOutOfStill();
     void placeStill(const Frame& frame);

@@ -22,8 +22,8 @@ namespace shutter::extract {
 [[nodiscard]] shader::LightRow
 makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
-/// Half of what a picture shows, to the right and up: at distance 1 (perspective), or metres at any
-/// distance (orthographic), where it is below 0 if the camera mirrors.
+/// Half the extent of the picture, to the right and up: at distance 1 (perspective), or metres at
+/// any distance (orthographic), where it is below 0 if the camera mirrors.
 /// \param yFov of the camera's frame, radians (ExposureMotion::cameraYFov)
 [[nodiscard]] math::dvec2
 computeHalfExtents(const scene::Camera& camera, double yFov, const ViewRequest& view);

@@ -312,7 +312,7 @@ class Extraction {
         }
         const float way = glm::distance(math::vec2(*seen[0]), math::vec2(*seen[1])) +
                           glm::distance(math::vec2(*seen[1]), math::vec2(*seen[2]));
-        // Corners of pictures, and what the way bends aside between the three places.
+        // Corners of pictures, and the curve of the path between the three places.
         const math::vec2 aside(
             1.5f * std::max(radius, shader::kLeastParticleRadiusPx) + 0.5f * way
         );

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a raster image was drawn of, so that the frame after finds its surfaces again.
+// Records the contents of a raster image, so that the next frame finds its surfaces.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -28,7 +28,7 @@ struct RasterShape {
     math::mat4 clipFromObject{1.0f}; ///< EntityRow::clipFromObjectRaster
 };
 
-/// What a raster image was drawn of: enough to find its surfaces again in the frame after.
+/// The contents of a raster image: enough to find its surfaces in the next frame.
 struct RasterRecord {
     double seconds = 0.0; ///< the frame's own time
     ecs::Entity camera;

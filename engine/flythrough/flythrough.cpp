@@ -89,7 +89,7 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
     return shutter;
 }
 
-/// What all keys give or none does. \param first the first key's
+/// Checks a field that either all keys have or none. \param first the first key's
 void expectAsInFirst(
     const json::JsonNode& node,
     std::string_view name,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Private to engine/gltf: what the readers of the parts see, above all the model. The one place
-// that includes tinygltf, so that every source file sees it configured alike. tinygltf turns
-// checked JSON into structs; it is built without file access and without image decoding, and never
-// sees a buffer or an image.
+// Private to engine/gltf: the shared context of the readers, in particular the model. The only file
+// that includes tinygltf, so that its configuration is the same everywhere. tinygltf turns checked
+// JSON into structs; it is built without file access and without image decoding, and never sees a
+// buffer or an image.
 #pragma once
 
 #include "engine/gltf/gltf_document.h"

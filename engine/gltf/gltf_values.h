@@ -30,7 +30,7 @@ inline constexpr int kFloat32 = TINYGLTF_COMPONENT_TYPE_FLOAT;
 /// and sparse part, before anything is read. Throws GltfError.
 void checkAccessors(const GltfContext& context);
 
-/// What a user of an accessor accepts.
+/// The accessor types that a use accepts.
 struct AccessorUse {
     std::string use;                 ///< for messages: "meshes[0].primitives[0] POSITION"
     std::vector<int> types;          ///< TINYGLTF_TYPE_...
@@ -42,8 +42,9 @@ struct AccessorUse {
 /// Components of the accessor's type: 1 to 16.
 [[nodiscard]] size_t componentCount(const tinygltf::Accessor& accessor);
 
-/// Without a buffer view, what a sparse part does not give is zero (glTF 2.0, 3.6.2.3): such zeros
-/// are never a reason to refuse a file, even where a value of zero has no meaning.
+/// Without a buffer view, elements that the sparse part does not contain are zero (glTF 2.0,
+/// 3.6.2.3): such zeros are never a reason to refuse a file, even where a value of zero has no
+/// meaning.
 [[nodiscard]] inline bool lacksView(const tinygltf::Model& model, size_t accessor) {
     return model.accessors[accessor].bufferView < 0;
 }

@@ -101,7 +101,7 @@ struct ExtensionFunctions {
     PFN_vkSetDebugUtilsObjectNameEXT setDebugUtilsObjectName = nullptr;
 };
 
-/// What a shader binding table has to keep to, bytes (RayTier::Pipeline).
+/// Alignment and sizes of shader binding tables, bytes (RayTier::Pipeline).
 struct ShaderGroupLimits {
     uint32_t handleBytes = 0;
     uint32_t handleAlignment = 1;

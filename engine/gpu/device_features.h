@@ -24,7 +24,7 @@ struct DeviceFeatures {
     void enableNeeded();
 
     /// For what vkGetPhysicalDeviceFeatures2 has filled in.
-    /// \return what the engine needs of that and is not set, in words; empty where all is
+    /// \return the names of required features that are not set; empty if all are
     [[nodiscard]] std::string findMissing() const;
 };
 

@@ -42,7 +42,7 @@ struct DeviceInfo {
 /// default.
 void listPortableDrivers(VkInstanceCreateFlags& flags, std::vector<const char*>& extensions);
 
-/// Whether accesses past the end of what a pass binds are caught: loads give 0, stores do nothing.
+/// Whether accesses past the end of bound resources are checked: loads give 0, stores do nothing.
 enum class Bounds : uint8_t { Trusted, Checked };
 
 /// The extensions that a device is made with.

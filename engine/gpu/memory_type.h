@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which type of memory serves which use. Drivers list their types in different orders and with
-// heaps of very different sizes, so the choice is made from what each type is, and is a pure
+// heaps of very different sizes, so the choice depends on each type's properties, and is a pure
 // function.
 #pragma once
 

@@ -179,7 +179,7 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroups{
         VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
     subgroups.requiredSubgroupSize = desc.subgroupSize;
-    // Where there are smaller ones, drivers choose by what a shader takes.
+    // If there are smaller ones, drivers choose by the shader's resource use.
     if (device.canRequireSubgroupSize(desc.subgroupSize) &&
         !device.canRequireSubgroupSize(desc.subgroupSize / 2))
         info.stage.pNext = &subgroups;

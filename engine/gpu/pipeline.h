@@ -115,7 +115,7 @@ class Pipeline {
     /// layout does not bind (CHECKed).
     void
     addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface);
-    /// Takes over what an equal pipeline left to the device. \return false: it must be made
+    /// Takes over the cached objects of an equal pipeline. \return false: it must be made
     template <typename Desc> bool takeKept(const Desc& desc);
     void release();
 

@@ -19,7 +19,7 @@ namespace shutter::gpu {
 /// Larger files are not read.
 inline constexpr uint64_t kMaxPipelineCacheBytes = uint64_t(256) << 20;
 
-/// What a blob names as the driver that made it.
+/// The driver in a blob's header.
 struct PipelineCacheOwner {
     uint32_t vendorId = 0;
     uint32_t deviceId = 0;

@@ -26,7 +26,7 @@ class Key {
         mBytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     }
 
-    /// What all kinds have.
+    /// Adds the parts that all kinds have.
     template <typename Desc> void addShared(const Desc& desc) {
         addList(std::span<const char>(desc.name));
         addList(std::span(desc.interface.bindings.data(), desc.interface.bindings.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray-tracing pipelines with what a launch needs (VK_KHR_ray_tracing_pipeline).
+// Ray-tracing pipelines with their shader binding tables (VK_KHR_ray_tracing_pipeline).
 #pragma once
 
 #include "engine/gpu/memory.h"

@@ -38,7 +38,7 @@ struct ShaderBinding {
 /// is not that of the image bound there, and older validation layers do not report it.
 [[nodiscard]] std::vector<VkFormat> reflectStorageFormats(std::span<const uint32_t> spirv);
 
-/// What a module needs of the device that runs it, beyond Vulkan 1.0 without features.
+/// Device requirements of a module, beyond Vulkan 1.0 without features.
 struct ShaderNeeds {
     std::set<uint32_t> capabilities; ///< SPIR-V's numbers, as declared
     bool indexesTextures = false;    ///< indexes arrays of textures by non-constant values

@@ -11,7 +11,7 @@ namespace shutter::gpu {
 
 namespace {
 
-/// What the size of a structure follows from.
+/// Compares the inputs that determine the size of a structure.
 bool isAlike(
     const VkAccelerationStructureGeometryKHR& a, const VkAccelerationStructureGeometryKHR& b
 ) {

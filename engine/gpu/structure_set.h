@@ -11,7 +11,7 @@
 
 namespace shutter::gpu {
 
-/// What a bottom level is made of: triangles or boxes, one kind only.
+/// The geometry of a BLAS: triangles or boxes, one kind only.
 struct BlasDesc {
     struct Boxes {
         VkDeviceAddress boxes = 0; ///< of BoxGeometry[] on the device
@@ -35,12 +35,12 @@ class StructureSet {
     StructureSet(StructureSet&& other) noexcept;
     StructureSet& operator=(StructureSet&& other) noexcept;
 
-    /// Makes room for bottom levels; record() builds them. Geometries without triangles or boxes
-    /// are fine. \param refits allow BuildAction::Refit \return true: count and sizes are as
-    /// before, so the last builds are still valid
+    /// Allocates BLASes; record() builds them. Geometries without triangles or boxes are fine.
+    /// \param refits allow BuildAction::Refit \return true: count and sizes are as before, so the
+    /// last builds are still valid
     bool prepareBlas(Device& device, std::vector<BlasDesc> levels, bool refits = false);
-    /// Makes room for top levels of one instance each and writes the instances. The GPU must be
-    /// done with the last ones.
+    /// Allocates TLASes of one instance each and writes the instances. The GPU must be done with
+    /// the last ones.
     void prepareTlas(Device& device, std::span<const Instance> instances);
     /// Records the builds; the caller places barriers.
     /// \param actions one per structure
@@ -80,7 +80,7 @@ class StructureSet {
     std::vector<Structure> mStructures;
     Buffer mStorage;
     Buffer mScratch;
-    Buffer mInstances; ///< top levels only
+    Buffer mInstances; ///< TLASes only
 };
 
 } // namespace shutter::gpu

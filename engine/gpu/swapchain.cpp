@@ -159,7 +159,7 @@ bool Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
     info.oldSwapchain = mSwapchain;
     VkSwapchainKHR made = VK_NULL_HANDLE;
     const VkResult result = vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made);
-    if (result == VK_ERROR_SURFACE_LOST_KHR) { // since it was asked
+    if (result == VK_ERROR_SURFACE_LOST_KHR) { // since the query
         mState = SwapchainState::SurfaceLost;
         return false;
     }

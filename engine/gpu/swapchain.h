@@ -16,14 +16,14 @@
 namespace shutter::gpu {
 
 struct SwapchainDesc {
-    uint32_t width = 1;  ///< pixels; clamped to what the surface takes
+    uint32_t width = 1;  ///< pixels; clamped to the surface's limits
     uint32_t height = 1; ///< pixels
     bool vsync = true;   ///< false: pictures are shown at once (mailbox, else immediate)
 
     bool operator==(const SwapchainDesc&) const = default;
 };
 
-/// What the window system's answer means for a swapchain.
+/// State of a swapchain after a call to the window system.
 enum class SwapchainState : uint8_t {
     Fits,
     Outdated,    ///< must be recreated before the next image
@@ -101,7 +101,7 @@ class Swapchain {
 
     core::Status chooseFormat();
     [[nodiscard]] VkPresentModeKHR chooseMode(bool vsync) const;
-    /// False: the surface was lost since it was asked.
+    /// False: the surface was lost since the query.
     bool createImages(const VkSurfaceCapabilitiesKHR& surface);
     void releaseImages();
     void noteState(VkResult result);

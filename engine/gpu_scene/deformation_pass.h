@@ -14,8 +14,8 @@ namespace shutter::gpu_scene {
 struct DeformedMeshes {
     /// Vertices and positions; read it with Access::ShaderRead. Invalid: nothing is deformed.
     graph::BufferHandle buffer;
-    /// The geometries of ExtractedFrame::deformed, one entity's behind the other's: what the
-    /// frame's geometry table holds behind the scene's own rows.
+    /// The geometries of ExtractedFrame::deformed, entity after entity: the rows of the frame's
+    /// geometry table after the scene's own.
     std::vector<shader::Geometry> rows;
 };
 

@@ -16,7 +16,7 @@ class EntityTable {
   public:
     explicit EntityTable(gpu::Device& device) : mDevice(device) {}
 
-    /// What an update wrote, for statistics.
+    /// Counts of written rows, for statistics.
     struct Written {
         uint64_t rows = 0;
         uint64_t motions = 0;

@@ -41,8 +41,9 @@ struct Placement {
     uint32_t resource = 0;
     uint32_t firstPass = 0;             ///< position in Plan::passes
     uint32_t lastPass = 0;              ///< position in Plan::passes, inclusive
-    VkImageUsageFlags imageUsage = 0;   ///< images: what the passes do with it
-    VkBufferUsageFlags bufferUsage = 0; ///< buffers: the description's and what the passes do
+    VkImageUsageFlags imageUsage = 0;   ///< images: from the accesses of the passes
+    VkBufferUsageFlags bufferUsage = 0; ///< buffers: from the description and the accesses of the
+                                        ///< passes
     VkDeviceSize bytes = 0;             ///< images: as the requirement function returns
     VkDeviceSize alignment = 1;
     VkDeviceSize offset = 0; ///< images: in the one block of memory they share
@@ -99,7 +100,7 @@ enum class DisjointWrites : uint8_t {
 [[nodiscard]] bool
 isWantedAfter(const Graph& graph, const Plan& plan, uint32_t resource, uint32_t position);
 
-/// The plan as text for a person: passes in order with what each reads and writes, barriers with
+/// The plan as text for a person: passes in order with their reads and writes, barriers with
 /// layouts, culled passes and why, images with size, format, lifetime and place in memory.
 [[nodiscard]] std::string dump(const Graph& graph, const Plan& plan);
 

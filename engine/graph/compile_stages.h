@@ -70,7 +70,7 @@ orderPasses(const Graph& graph, const VersionTable& versions, const std::vector<
 /// and the resource.
 [[nodiscard]] core::Status checkDeclaration(const Graph& graph);
 
-/// Outputs and what the host reads must still exist when the frame ends.
+/// Outputs and resources that the host reads must exist when the frame ends.
 [[nodiscard]] core::Status
 checkResults(const Graph& graph, const VersionTable& versions, const std::vector<bool>& kept);
 

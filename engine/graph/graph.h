@@ -23,7 +23,8 @@ namespace shutter::graph {
 
 class PassResources;
 
-/// What an execute callback gets: the frame to record into and the real resources behind handles.
+/// Arguments of an execute callback: the frame to record into and the real resources behind
+/// handles.
 struct PassContext {
     gpu::Frame& frame;
     const PassResources& resources;
@@ -55,7 +56,7 @@ struct ResourceUse {
 
 struct ColorTarget {
     uint32_t resource = 0;
-    std::optional<ClearColor> clear; ///< none: what the version before holds is kept (loaded)
+    std::optional<ClearColor> clear; ///< none: the previous version's contents are loaded
 };
 
 struct DepthTarget {

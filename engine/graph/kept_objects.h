@@ -46,7 +46,7 @@ template <class Key, class Object> class KeptObjects {
         }
     }
 
-    /// Drops what the last `rounds` rounds did not use.
+    /// Drops objects not used in the last `rounds` rounds.
     void dropUnused(uint64_t rounds) {
         mEntries.remove_if([&](const Entry& entry) { return entry.lastRound + rounds < mRound; });
     }

@@ -13,7 +13,7 @@ namespace {
 /// Several plans' images wait for them: a frame with every method's intermediates has about thirty.
 constexpr uint64_t kMostIdleImages = 128;
 
-/// Frames for which what no plan wants is kept: a second or two, so that motion may pause.
+/// Frames for which unused objects are cached: a second or two, so that motion may pause.
 constexpr uint64_t kRoundsKept = 100;
 
 gpu::ImageDesc describe(const TransientImageDesc& desc, VkImageUsageFlags usage) {

@@ -42,7 +42,7 @@ class TransientPool {
     [[nodiscard]] RequirementFunction requirementFunction();
 
   private:
-    /// What an image or buffer was made from; equal keys, equal objects.
+    /// Creation parameters of an image or buffer; equal keys, equal objects.
     struct ImageKey {
         TransientImageDesc desc;
         VkImageUsageFlags usage = 0;

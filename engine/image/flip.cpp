@@ -280,7 +280,7 @@ Features computeFeatures(const Plane& luminance) {
     return {length(kernels.edge), length(kernels.point)};
 }
 
-/// What an observer makes of a picture.
+/// A picture as perceived by an observer.
 struct Appearance {
     std::vector<Color> colors;
     Features features;
@@ -301,8 +301,8 @@ float combine(float colorError, float edgeDifference, float pointDifference) {
     return error < 1.0f ? error : 1.0f;
 }
 
-/// The ACES curve of Narkowicz 2016 with its exposure of 0.6, which HDR-FLIP takes for what a
-/// display's tone map does: (a0 x^2 + a1 x) / (b0 x^2 + b1 x + b2).
+/// The ACES curve of Narkowicz 2016 with its exposure of 0.6, HDR-FLIP's model of a display's tone
+/// map: (a0 x^2 + a1 x) / (b0 x^2 + b1 x + b2).
 struct ToneCurve {
     double a0 = 0.6 * 0.6 * 2.51;
     double a1 = 0.6 * 0.03;
@@ -312,7 +312,7 @@ struct ToneCurve {
 };
 
 constexpr ToneCurve kCurve{};
-/// What the curve makes of the brightest light at the first exposure, and of the median at the
+/// Result of the curve for the brightest light at the first exposure, and for the median at the
 /// last.
 constexpr double kShown = 0.85;
 /// From the first exposure to the last: where half of a picture is black, no exposure shows it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Private to engine/image: what the metrics share, and the separable filters of FLIP.
+// Private to engine/image: code shared by the metrics, and the separable filters of FLIP.
 #pragma once
 
 #include "engine/core/check.h"

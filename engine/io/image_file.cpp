@@ -62,7 +62,7 @@ uint32_t pack(const Timecode& timecode) {
            packDigits(timecode.seconds) << 8 | packDigits(timecode.frames);
 }
 
-/// What a format leaves open.
+/// Encoding choices that a format leaves open.
 struct Encoding {
     SampleType type = SampleType::Float;
     DisplayDepth depth = DisplayDepth::Bytes;

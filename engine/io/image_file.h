@@ -38,8 +38,8 @@ struct PixelWindow {
 struct StoredImage {
     image::Image image;            ///< the pixels that there are: those of the data window
     bool isDisplayEncoded = false; ///< 8 or 16 bits: sRGB; else (EXR, HDR) linear light, or data
-    /// What whole numbers above 2^24, which became the nearest float, have above `image`; empty
-    /// where all values are what the file holds.
+    /// Remainders of whole numbers above 2^24, which were rounded to floats in `image`; empty if
+    /// all values are exact.
     image::Image remainder{};
     PixelWindow data;         ///< where in the picture the pixels lie
     PixelWindow display;      ///< the picture; only an EXR's may differ from `data`

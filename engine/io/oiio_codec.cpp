@@ -132,7 +132,7 @@ std::string readOpened(ImageInput& input, uint64_t fileBytes, FloatPixels& out) 
     return done ? std::string() : oneLine(input.geterror(), "its pixels cannot be decoded");
 }
 
-/// What a kind of file begins with, and OpenImageIO's name of its reader.
+/// Signature of a file format, and OpenImageIO's name of its reader.
 struct Signature {
     std::string_view begin;
     const char* reader;

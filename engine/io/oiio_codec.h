@@ -25,7 +25,7 @@ struct FloatPixels {
     std::vector<float> values;
     std::vector<std::string> channelNames;
     bool isShortInteger = false; ///< stored in 8 or 16 bits, not as floats or 32-bit integers
-    /// What the 32-bit integers that no float holds have above `values`; empty where there are
+    /// Remainders of 32-bit integers that no float represents, over `values`; empty if there are
     /// none.
     std::vector<float> remainders;
 };

@@ -64,7 +64,7 @@ class Pipe {
     bool mOpened = false;
 };
 
-/// What a child needs to become the program.
+/// Arguments and descriptors with which a child becomes the program.
 struct Child {
     const char* program;
     char* const* arguments;

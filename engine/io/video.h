@@ -18,7 +18,7 @@ enum class VideoCodec : uint8_t {
     Vp9,    ///< 4:2:0, of 8 bits, in .webm: every browser plays it
 };
 
-/// What a film is encoded as.
+/// Encoding of a film.
 struct VideoFormat {
     VideoCodec codec = VideoCodec::H264;
     uint32_t bitDepth = 8; ///< bits of a channel, 8 or 10

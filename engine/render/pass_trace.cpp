@@ -18,7 +18,7 @@ bool canBeCopied(const graph::ResourceRecord& resource) {
 core::Status PassTrace::declare(
     graph::Graph& graph, Readback& readback, const graph::RequirementFunction& requirement
 ) {
-    // A copy of what a culled pass writes would make it run.
+    // A copy of a culled pass's output would make it run.
     const auto plan = graph::compile(graph, requirement);
     if (!plan)
         return plan.error();

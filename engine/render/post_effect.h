@@ -134,11 +134,11 @@ struct PostContext {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
     uint32_t slot = 0;                  ///< of the frames in flight, below gpu::kMaxFramesInFlight
-    /// What the frame's submission waits for and signals; set by an effect that draws on an image
-    /// of the window system.
+    /// Semaphores of the frame's submission; set by an effect that draws on an image of the window
+    /// system.
     gpu::SubmitSemaphores semaphores{};
-    /// What the particles that are drawn next are hidden by and lie over; set by an effect that
-    /// found it.
+    /// Surfaces in front of and behind the particles that are drawn next; set by an effect that
+    /// found them.
     std::optional<ParticleInstants> particleInstants{};
 };
 
@@ -147,8 +147,8 @@ struct FinishedFrame {
     uint32_t slot = 0;                      ///< PostContext::slot of it
     bool ran = false;                       ///< the effect declared passes for it
     std::span<const gpu::PassTime> passes;  ///< of those it declared
-    Counters& counters;                     ///< takes what the effect counted, if it ran
-    Measures& measures;                     ///< takes what the effect measured, if it ran
+    Counters& counters;                     ///< receives the effect's counters, if it ran
+    Measures& measures;                     ///< receives the effect's measures, if it ran
     std::vector<Explanation>& explanations; ///< takes what only those counts and measures explain
 };
 
@@ -200,8 +200,7 @@ class PostEffect {
     /// Declares passes; called after extract().
     virtual void declare(PostContext& context) = 0;
 
-    /// Called for each frame that the effect was asked about, in their order, once the GPU is done
-    /// with it.
+    /// Called for each frame for which ask() was called, in order, once the GPU has finished it.
     virtual void finish(FinishedFrame&) {}
 };
 

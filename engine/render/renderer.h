@@ -53,10 +53,10 @@ struct FrameRequest {
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
-    bool wantTrace = false; ///< copy what each pass writes to FrameResult::trace
+    bool wantTrace = false; ///< copy the outputs of each pass to FrameResult::trace
     /// False: effects may skip their device counters; FrameStatistics::counters may lack them.
     bool wantCounters = true;
-    /// Measure what a later frame may take as its lastBrightest (kBrightest), where there is a
+    /// Measure kBrightest, which later frames may get as lastBrightest, if there is a
     /// display-encoded picture.
     bool wantBrightest = false;
     /// ViewFacts::lastBrightest. A picture that depends on it depends on those drawn before.
@@ -95,7 +95,7 @@ class IdleCounter {
     uint32_t mIdle = 0;
 };
 
-/// How far what a picture shows moves in its exposure.
+/// Longest motion in a picture during its exposure.
 struct LongestPath {
     /// Longest way of a visible point across the picture, or of a caster of shadows, which need not
     /// be visible; pixels. 0: nothing moves.
@@ -131,9 +131,9 @@ class Renderer {
         const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
     );
 
-    /// What the view's cap (CameraShutter::maxBlurPercent) leaves of the motion: give it to
-    /// ExposureInterval::cap of all that is drawn of this exposure. Measured on the raster image,
-    /// which is drawn up to four times for it; nothing is drawn where there is no cap.
+    /// Measures the shares of motion that remain under the view's cap
+    /// (CameraShutter::maxBlurPercent): pass them to ExposureInterval::cap of everything drawn of
+    /// this exposure. Draws the raster image up to four times; draws nothing without a cap.
     [[nodiscard]] core::Result<scene::MotionCap>
     measureMotionCap(const scene::World& world, const extract::ViewRequest& view);
 
@@ -194,7 +194,7 @@ class Renderer {
         ParticleBuffer particles;
     };
 
-    /// What a frame is declared from.
+    /// Inputs of declaring a frame.
     struct FrameParts {
         Slot& slot;
         graph::Graph& graph;
@@ -281,7 +281,7 @@ class Renderer {
     static std::vector<PendingEffect> listPending(
         std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
-    /// Gives back what no frame wanted for a while.
+    /// Frees resources that no frame used for a while.
     void releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running);
 
     void declareTlas(

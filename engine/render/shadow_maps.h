@@ -60,7 +60,7 @@ class ShadowMaps {
         VkRect2D place{};
     };
 
-    /// What a kept map shows.
+    /// The contents of a cached map.
     struct Kept {
         math::dmat4 clipFromWorld{0.0};
         uint32_t sizePx = 0;

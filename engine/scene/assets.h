@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene file holds besides entities: meshes, materials, textures, clips. Plain data in main
-// memory; nothing here knows of Vulkan or of file formats.
+// Contents of a scene besides entities: meshes, materials, textures, clips. Plain data in main
+// memory, independent of Vulkan and file formats.
 #pragma once
 
 #include "engine/math/bounds.h"

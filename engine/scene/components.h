@@ -83,7 +83,7 @@ struct VertexWave {
     double phase = 0.0;            ///< radians at time 0 at the origin, [-1e6, 1e6]
 };
 
-/// What the share of its waves that a vertex follows depends on.
+/// The vertex attribute that determines its share of the waves.
 enum class WaveShare : uint8_t {
     All,    ///< every vertex follows them whole
     Height, ///< how far along an axis it is
@@ -132,7 +132,7 @@ enum class ShutterPhase : uint8_t {
     End,    ///< [t - E, t]
 };
 
-/// What the length of the exposure follows.
+/// What determines the length of the exposure.
 enum class ShutterMode : uint8_t {
     Physical, ///< seconds, whatever the frame rate
     Angle,    ///< a share of the frame's duration, as a rotating disc's opening

@@ -48,7 +48,7 @@ void addTargets(const Primitive& primitive, std::vector<Bounds>& targets) {
     }
 }
 
-/// What the waves add to any vertex: it follows a share of them, [0, 1].
+/// Bounds of the waves' displacement of any vertex, which follows a share of them, [0, 1].
 Bounds boundWaves(const WavePose& pose) {
     Bounds result;
     result.add(dvec3(0.0));
@@ -60,7 +60,7 @@ Bounds boundWaves(const WavePose& pose) {
     return result;
 }
 
-/// What the morph targets and waves add to any vertex.
+/// Bounds of the displacement of any vertex by morph targets and waves.
 Bounds boundDeltas(const PoseReach& reach, const Deformation& pose) {
     Bounds result = boundWaves(pose.waves);
     const std::vector<double>& weights = pose.morphWeights;

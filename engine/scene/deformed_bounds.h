@@ -11,12 +11,11 @@
 
 namespace shutter::scene {
 
-/// What the bounds of a pose need to know of the vertices. Computed once for a mesh or a part of
-/// one; small.
+/// Data of the vertices for the bounds of a pose. Computed once for a mesh or a part of one; small.
 struct PoseReach {
     math::Bounds rest;                 ///< of all vertices; as Mesh::bounds
     std::vector<math::Bounds> joints;  ///< of the vertices each joint deforms; empty: deforms none
-    std::vector<math::Bounds> targets; ///< of what each morph target adds at weight 1
+    std::vector<math::Bounds> targets; ///< of each morph target's displacement at weight 1
 };
 
 /// Vertices of a primitive without influences count as deformed by joint 0. A joint of weight 0

@@ -26,9 +26,9 @@ struct Environment {
     /// The background: a pyramid of at least one level, each half as wide and high as the one
     /// before (rounded down, at least 1).
     std::vector<DirectionPicture> background;
-    /// What a surface mirrors: at least one, each half as wide and high as the one before. Number i
-    /// is filtered for the perceptual roughness i / (number of them - 1), as if n = v = r (Karis
-    /// 2013).
+    /// Prefiltered reflections: at least one level, each half as wide and high as the one before.
+    /// Number i is filtered for the perceptual roughness i / (number of them - 1), as if n = v = r
+    /// (Karis 2013).
     std::vector<DirectionPicture> mirrored;
     /// Irradiance over pi of a surface with unit normal n, by real spherical harmonics whose
     /// constants are folded in: factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2

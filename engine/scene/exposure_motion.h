@@ -33,8 +33,8 @@ class ExposureMotion {
     /// Nothing has a past in this frame: everything is static, as at the raster instant.
     [[nodiscard]] bool isCut() const { return mIsCut; }
 
-    /// Whether the entity is hidden as long as the exposure lasts: a part of one is asked when it
-    /// begins, a whole one, which shows an entity all the time or never, at its raster instant.
+    /// Whether the entity is hidden for the exposure: tested at the beginning of a part, and at the
+    /// raster instant of a whole exposure, which shows an entity throughout or never.
     [[nodiscard]] bool isHidden(ecs::Entity entity) const;
     /// Whether it is at shutter time s.
     [[nodiscard]] bool isHiddenAt(ecs::Entity entity, double s) const;

@@ -27,7 +27,7 @@ struct Displacement {
     dquat rotation{1.0, 0.0, 0.0, 0.0};
 };
 
-/// What the velocity components add to the pose after `seconds`, in the parent's space.
+/// The displacement by velocity components after `seconds`, in the parent's space.
 Displacement
 computeDisplacement(const ecs::Registry& registry, ecs::Entity entity, double seconds) {
     Displacement result;

@@ -54,7 +54,7 @@ Status checkFilmSize(const game::PictureSize& size) {
     );
 }
 
-/// What the truth shows of a pixel, and how methods smooth edges.
+/// Sets the pixel model of the truth, and the anti-aliasing of methods.
 Status applyEdges(const BenchArguments& arguments, Suite& suite) {
     const bool hasPixel = arguments.pixelOption != nullptr && arguments.pixelOption->count() > 0;
     if (!suite.axes.empty() && (hasPixel || !arguments.antiAliasings.empty()))

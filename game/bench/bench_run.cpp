@@ -20,7 +20,7 @@ using nlohmann::json;
 
 /// The method at whose time all others are compared: the first of these that is measured.
 constexpr const char* kReferences[] = {"resolved", "hybrid"};
-/// What the headline compares it with.
+/// The baseline of the headline.
 constexpr const char* kBaseline = "gather";
 
 constexpr const char* kResultsFile = "results.json";

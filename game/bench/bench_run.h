@@ -18,7 +18,7 @@ namespace shutter::bench {
 struct RunOptions {
     Suite suite;
     std::vector<const game::MethodInfo*> methods;
-    game::ShotOptions shot; ///< what the suite's cases leave open: size, tone map
+    game::ShotOptions shot; ///< options that the suite's cases do not set: size, tone map
     MeasureOptions measure;
     SequenceOptions sequence; ///< for suites that have sequences
 };

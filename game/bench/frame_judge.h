@@ -15,7 +15,7 @@ namespace shutter::bench {
 /// Which measures are taken of a picture.
 enum class Judgement : uint8_t {
     Whole,   ///< all of them
-    InTime,  ///< what a camera at rest adds: flicker
+    InTime,  ///< additional with a camera at rest: flicker
     Squares, ///< PSNR alone
 };
 

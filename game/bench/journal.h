@@ -48,7 +48,7 @@ struct Record {
 
 class Journal {
   public:
-    /// Reads what an earlier run left, unless it measured something else.
+    /// Reads the records of an earlier run, unless its fingerprint differs.
     /// \param fingerprint everything that makes measurements comparable
     Journal(std::filesystem::path file, std::string fingerprint);
 

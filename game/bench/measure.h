@@ -38,7 +38,7 @@ struct CaseResult {
     std::vector<Crop> crops;
 };
 
-/// Asked between pictures; true ends the run.
+/// Called between pictures; true ends the run.
 using StopQuestion = std::function<bool()>;
 
 /// Work of a case for a progress bar, in frames and rays.
@@ -52,7 +52,8 @@ pictureFile(const std::string& caseName, const std::string& method, uint32_t sam
 /// "method/samples".
 [[nodiscard]] std::string makeKey(const SamplePoint& point);
 
-/// Measures what the case's journal lacks. Returns early, without an error, if `stop` is set.
+/// Measures the points that the case's journal lacks. Returns early, without an error, if `stop` is
+/// set.
 /// Error: the scene cannot be loaded, a file cannot be written.
 [[nodiscard]] core::Result<CaseResult> measureCase(
     gpu::Device& device,

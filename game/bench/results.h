@@ -35,8 +35,8 @@ describeTimes(const game::MethodInfo& method, const std::vector<Sample>& samples
 /// The picture file of a measurement, relative to the report's folder.
 using ImageOf = std::function<std::string(const nlohmann::json& measurement)>;
 
-/// What each other method reaches with the sample count whose frame time is nearest to the
-/// reference method's at its default.
+/// Accuracy of each other method with the sample count whose frame time is nearest to the reference
+/// method's at its default.
 /// \param described describeCase()'s
 /// \return null if the reference was not measured
 [[nodiscard]] nlohmann::json compareAtEqualTime(
@@ -73,7 +73,7 @@ struct MeasuredPoint {
 /// Name, driver and API of the Vulkan device.
 [[nodiscard]] nlohmann::json describeDevice(const gpu::DeviceInfo& device);
 
-/// What the results of every suite begin with: schema and version, suite, now, that they are not
+/// The common header of every suite's results: schema and version, suite, now, that they are not
 /// yet complete, revision, machine and device.
 [[nodiscard]] nlohmann::json
 describeOrigin(const std::string& suite, const gpu::DeviceInfo& device);

@@ -44,7 +44,8 @@ struct SequenceResult {
     std::map<std::string, std::string> films; ///< by makeKey(), relative to the report's folder
 };
 
-/// Measures what the sequence's journal lacks. Returns early, without an error, if `stop` is set.
+/// Measures the frames that the sequence's journal lacks. Returns early, without an error, if
+/// `stop` is set.
 /// Error: a scene cannot be loaded, a file cannot be written.
 [[nodiscard]] core::Result<SequenceResult> measureSequence(
     gpu::Device& device,

@@ -46,10 +46,9 @@ std::string describeOperator(const tonemap::TonemapSettings& settings) {
 struct Metrics {
     double psnrDb = 0.0; ///< infinity: equal
     double ssim = 0.0;
-    double peak = 1.0;    ///< that the first two are for
-    bool isEqual = false; ///< nothing that was compared differs
-    std::optional<image::FlipResult>
-        flip; ///< of display values only: it models what a display shows
+    double peak = 1.0;                     ///< that the first two are for
+    bool isEqual = false;                  ///< nothing that was compared differs
+    std::optional<image::FlipResult> flip; ///< of display values only: it models a display
 };
 
 /// Absolute difference as black, red, yellow, white; full scale at a difference of 0.5.

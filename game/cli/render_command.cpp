@@ -17,7 +17,7 @@ namespace shutter::game {
 
 namespace {
 
-/// What a script that has the frames drawn by several processes needs to know.
+/// Prints the plan for a script that distributes the frames over several processes.
 core::Status printPlan(RenderOptions& options) {
     auto shot = loadShot(options.shot);
     if (!shot)

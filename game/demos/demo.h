@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A game without a window: a world, its rules, and what the player does in each fixed step. Who
-// shows one draws world() through camera() at seconds(), exposure ending there (ShutterPhase::End).
+// A game without a window: a world, its rules, and the player's controls in each fixed step. The
+// viewer draws world() through camera() at seconds(), with the exposure ending there
+// (ShutterPhase::End).
 #pragma once
 
 #include "engine/core/result.h"
@@ -40,7 +41,7 @@ struct HudLine {
                             ///< side
 };
 
-/// What the view of a demo's world needs besides the world.
+/// View settings of a demo's world.
 struct DemoLook {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is drawn: the sky
     math::vec3 ambient{0.0f};    ///< linear RGB of the light from everywhere
@@ -74,7 +75,7 @@ class Demo {
     [[nodiscard]] virtual bool isBodyExcluded() const = 0;
 };
 
-/// What the controls do in a demo, in a few words.
+/// Descriptions of a demo's controls, in a few words.
 struct DemoControlWords {
     const char* turn;
     const char* drive;

@@ -38,7 +38,7 @@ struct TargetHit {
 [[nodiscard]] std::optional<TargetHit>
 hitTarget(ecs::Registry& registry, const math::dvec3& ball, double ballRadius);
 
-/// What a hit is worth: ten points for each m/s.
+/// Points of a hit: ten for each m/s.
 [[nodiscard]] int pointsFor(const TargetHit& hit);
 
 } // namespace shutter::game

@@ -87,7 +87,7 @@ void stepCar(CarState& car, const DemoControls& controls, bool onRoad) {
     const double grip =
         kGravity * (onRoad ? kRoadGrip : kMeadowGrip) * (controls.action ? kSlidingGrip : 1.0);
     const double before = car.speed();
-    // Beyond what the tyres hold at this speed more lock would only scrub.
+    // Beyond the tyres' grip at this speed more lock would only scrub.
     const double useful =
         std::atan(kWheelBase * 1.1 * kRoadGrip * kGravity / std::max(before * before, 1.0e-3));
     const double lock = std::min(kMostSteer, useful);

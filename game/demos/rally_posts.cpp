@@ -34,7 +34,7 @@ void applyImpulse(Rod& rod, const dvec3& arm, const dvec3& impulse) {
     rod.spin += glm::cross(arm, impulse) / inertiaOf(rod);
 }
 
-/// What an impulse of 1 along `direction` at `arm` changes of that point's speed along it.
+/// Change of speed of the point at `arm` along `direction` by an impulse of 1.
 double softness(const Rod& rod, const dvec3& arm, const dvec3& direction) {
     const dvec3 lever = glm::cross(arm, direction);
     return 1.0 + glm::dot(lever, lever) / inertiaOf(rod);

@@ -21,7 +21,7 @@ namespace shutter::game {
 /// "shutter: <sentence>" on stderr, always one line.
 void printError(const core::Error& error);
 
-/// What the program returns.
+/// Exit statuses.
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1; ///< one sentence was printed
 inline constexpr int kExitUsage = 2;  ///< the command line was wrong

@@ -270,7 +270,7 @@ std::string describe(const ShotArguments& arguments) {
     text += describeRows(OptionRows<A>(std::span(&kSizeRow, 1)), arguments);
     text += core::describeValues(environment::listEnvironmentRows(), arguments.surroundings) + " ";
     text += describe(arguments.picture);
-    // What the options mean together; wrong ones are refused before a picture is drawn.
+    // Interprets the options together; wrong ones are refused before a picture is drawn.
     const auto shutter = interpretShutter(arguments.shutter);
     for (const core::SettingRow<scene::CameraLens>& row : scene::listLensRows())
         if (arguments.typed.contains(row.option))

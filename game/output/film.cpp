@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kPattern = "frame_%06d.png";
 
-/// What the film is encoded as: the time code in numbers. Error: names --timecode.
+/// Resolves the film's encoding: the time code in numbers. Error: names --timecode.
 core::Result<io::VideoFormat> resolveFormat(const RenderOptions& options) {
     io::VideoFormat format = options.output.video;
     const auto timecode = findTimecode(options, 0);

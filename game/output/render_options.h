@@ -36,7 +36,7 @@ struct OutputOptions {
     bool displayOut = false;      ///< .png or .jpg: tone-mapped; otherwise linear
     std::set<std::string> aovs;   ///< intermediates to write
     std::filesystem::path stats;  ///< empty: none
-    std::filesystem::path hashPasses; ///< JSON of what each pass wrote; empty: none
+    std::filesystem::path hashPasses; ///< JSON with hashes of each pass's outputs; empty: none
     bool dumpGraph = false;
     bool explain = false;            ///< print why each effect and pass ran or was skipped
     uint32_t repeat = 1;             ///< pictures that are timed

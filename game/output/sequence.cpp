@@ -387,8 +387,8 @@ drawPictures(const RenderOptions& options, const std::string& fingerprint, Seque
     return {};
 }
 
-// What a picture of a sequence depends on, as a hash: two frames of equal numbers and fingerprints
-// are the same bits.
+// Hash of all inputs of a sequence's pictures: two frames of equal numbers and fingerprints are the
+// same bits.
 
 /// Hashes everything that a frame's picture depends on except its number and the device: the
 /// options, the contents of the files that they name, and this program. A film's frames are named

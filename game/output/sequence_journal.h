@@ -21,7 +21,7 @@ namespace shutter::game {
 
 class SequenceJournal {
   public:
-    /// What an earlier run left.
+    /// State left by an earlier run.
     enum class Before : uint8_t { Nothing, SamePictures, OtherPictures };
 
     /// Begins an empty journal unless there is one of the same fingerprint.

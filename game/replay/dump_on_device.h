@@ -37,7 +37,7 @@ class UploadedImage {
     gpu::Buffer mStaging;
 };
 
-/// Answers the reveal with what the host answered.
+/// Replays the host's answers to the reveal.
 class ReplayedReveal {
   public:
     explicit ReplayedReveal(gpu::Device& device);
@@ -56,7 +56,7 @@ class ReplayedReveal {
     std::deque<gpu::Buffer> mTexels;
 };
 
-/// Draws what the host drew over the picture.
+/// Replays the host's drawing over the picture.
 class ReplayedDraws {
   public:
     explicit ReplayedDraws(gpu::Device& device) : mDevice(device) {}

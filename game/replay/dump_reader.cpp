@@ -43,7 +43,7 @@ constexpr std::array<std::pair<std::string_view, DumpedResponse>, 3> kResponses{
      {"file", DumpedResponse::File},
      {"address", DumpedResponse::Address}}};
 
-/// What each image's texels may be.
+/// Allowed texels of each image.
 struct ImageRow {
     std::string_view name;
     std::array<Texels, 2> texels;
@@ -255,7 +255,7 @@ DumpedDraws readDraws(const JsonNode& node, const DumpFrame& frame) {
     return drawn;
 }
 
-/// The images of what the host drew are as large as its area.
+/// Images of the host's drawing have the size of its area.
 void checkDrawn(const JsonNode& node, const DumpFrame& frame) {
     const DumpedDraws& drawn = *frame.drawn;
     for (uint32_t part = 0; part < drawn.partCount; ++part)

@@ -29,7 +29,7 @@ struct DumpImage {
 
 enum class DumpedReveal : uint8_t { None, Own, Tables };
 
-/// What the host drew over the picture: images drawnColor0 and so on.
+/// The host's drawing over the picture: images drawnColor0 and so on.
 struct DumpedDraws {
     VkRect2D area{{0, 0}, {0, 0}}; ///< within the picture
     uint32_t instantCount = 1;     ///< [1, 256]

@@ -33,7 +33,7 @@ struct Arguments {
     gpu::DeviceOptions device;
 };
 
-/// What the options make of a frame's settings.
+/// Applies the options to a frame's settings.
 core::Status change(const Arguments& arguments, MotionBlurSettings& settings) {
     game::MethodArguments wanted = arguments.method;
     if (!arguments.hasMethod)

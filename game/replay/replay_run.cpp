@@ -53,7 +53,7 @@ image::Image unpackPicture(const uint8_t* bytes, uint32_t width, uint32_t height
     return picture;
 }
 
-/// What the dump does not hold, where the method needs it.
+/// Checks that the dump has the method's inputs.
 core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& settings) {
     const motion_blur::Method& method = *settings.method;
     const std::string_view dumped = frame.settings.method->name;
@@ -99,7 +99,7 @@ core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& setting
     return {};
 }
 
-/// What the host drew fits the instants and parts that are composited now.
+/// Checks that the host's drawing matches the present instants and parts.
 core::Status
 checkDraws(const DumpFrame& frame, const HostInputs& inputs, const MotionBlurSettings& settings) {
     if (!frame.drawn)

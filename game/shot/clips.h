@@ -22,9 +22,10 @@ namespace shutter::game {
 /// All clips of that name, in order; where there are none, the one of that index. Empty: none.
 [[nodiscard]] std::vector<uint32_t> findClips(const scene::World& world, std::string_view wanted);
 
-/// Activates the clips that --clip names. Without it, all play but those that move what a later
-/// clip that plays moves, weights of morph targets too: no clip plays in part. A warning names
-/// them. \param flying a clip that plays before all others Error: --clip names none of the clips.
+/// Activates the clips that --clip names. Without it, all play except those that drive a property
+/// which a later playing clip drives, including morph weights: no clip plays in part. A warning
+/// names them. \param flying a clip that plays before all others Error: --clip names none of the
+/// clips.
 [[nodiscard]] core::Status selectClips(
     scene::World& world, const ShotOptions& options, std::optional<uint32_t> flying = std::nullopt
 );

@@ -32,8 +32,8 @@ struct MethodInfo {
     MethodFamily family;
     const motion_blur::Method* blur = nullptr; ///< null unless the family is MotionBlur
     RayNeed rays = RayNeed::None;
-    bool hasLens = false; ///< it draws what the camera's lens sees; false: what a pinhole does
-    /// Makes a pinhole's picture what the lens sees; null: nothing does, or the method itself.
+    bool hasLens = false; ///< it draws with the camera's lens; false: with a pinhole
+    /// Depth-of-field filter for the pinhole's picture; null: none, or the method has a lens.
     const depth_of_field::Filter* lensFilter = nullptr;
     bool filtersBlurred = false; ///< the filter gets the blurred picture; false: the sharp one
     /// What `--samples` counts, which trades time for error; empty: the method takes no samples.
@@ -72,8 +72,8 @@ struct Preset {
 [[nodiscard]] core::Result<const Preset*> findPreset(std::string_view name);
 
 enum class PassGroup : uint8_t {
-    Scene,   ///< what a picture without blur draws as well
-    Blur,    ///< what the method adds to it, acceleration structures for its rays included
+    Scene,   ///< also drawn in a picture without blur
+    Blur,    ///< added by the method, including acceleration structures for its rays
     Other,   ///< other effects: bloom, anti-aliasing, and acceleration structures for rays
     Display, ///< what brings the linear picture to the window or to memory
 };

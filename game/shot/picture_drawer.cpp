@@ -61,7 +61,7 @@ PictureRequest makePicture(
     picture.frame.view = makeView(shot, options, seconds);
     const bool seesLens =
         options.usesLens && method.method->hasLens && scene::hasLens(shot.world, shot.camera);
-    // A filter takes what a pinhole sees.
+    // A filter needs a pinhole's picture.
     picture.filtersLens = seesLens && method.method->lensFilter != nullptr;
     picture.frame.view.usesLens = seesLens && !picture.filtersLens;
     picture.method = method;

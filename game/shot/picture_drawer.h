@@ -74,7 +74,7 @@ struct PictureRequest {
     /// picture.
     std::vector<render::PostEffect*> ending;
     /// Below PictureDrawer::kSlots. Pictures that are drawn side by side, each again and again, use
-    /// different slots, so that neither disturbs what the other's effects keep between frames.
+    /// different slots, so that neither disturbs the history of the other's effects.
     uint32_t slot = 0;
 };
 
@@ -133,8 +133,8 @@ class PictureDrawer {
     [[nodiscard]] static uint32_t
     countSteps(const MethodOptions& method, AntiAliasing antiAliasing = AntiAliasing::None);
 
-    /// What the view's shutter caps, for pictures that share a view. Finishes all frames if there
-    /// is a cap to measure.
+    /// Measures the cap of the view's shutter, for pictures that share a view. Finishes all frames
+    /// if there is a cap to measure.
     [[nodiscard]] core::Result<scene::MotionCap>
     measureCap(const scene::World& world, const extract::ViewRequest& view);
 
@@ -200,7 +200,7 @@ class PictureDrawer {
         bool isShown = true;
         bool isLast = true;
         bool isIntermediates = false; ///< drawn for the picture's intermediates alone
-        bool isBefore = false; ///< the frame before the picture's, drawn for what the effect keeps
+        bool isBefore = false; ///< the frame before the picture's, drawn for the effect's history
         size_t exposureParts = 0; ///< of the picture
     };
 
@@ -258,7 +258,7 @@ class PictureDrawer {
     [[nodiscard]] render::FrameResult takeOnly();
     /// Adds the explanation that the picture's exposure was drawn in parts.
     static void explainParts(render::FrameStatistics& statistics, size_t parts);
-    /// Adds what a frame's passes wrote to the picture's.
+    /// Appends a frame's trace to the picture's.
     static void keepTrace(Slot& slot, std::vector<render::WrittenImage> written);
     void finishOldest();
 

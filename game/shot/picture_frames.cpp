@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frames that a picture takes: what each of them draws, and by which effects.
+// The frames of a picture, and the effects of each.
 #include "engine/core/check.h"
 #include "game/shot/picture_drawer.h"
 
@@ -62,7 +62,7 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
         return nullptr; // the mean is all it is
     case MethodFamily::Truth: {
         const truth::TruthSettings settings{request.pixel, request.seed};
-        finishUntil(0); // what a batch counted is read before the next one
+        finishUntil(0); // a batch's counters are read before the next one
         if (!slot.truth || slot.truthSettings != settings)
             slot.truth = std::make_unique<truth::Truth>(mDevice, mRenderer.scene(), settings);
         slot.truthSettings = settings;

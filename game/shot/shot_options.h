@@ -47,8 +47,8 @@ struct ShotOptions {
         false;                  ///< no option sets a shutter, so the flythrough's shutters apply
     std::string flythroughClip; ///< of --flythrough clip:NAME|INDEX
     scene::CameraShutter shutter{};
-    /// Methods that have a lens (MethodInfo::hasLens) draw what the camera's sees; false: all draw
-    /// what a pinhole does.
+    /// Methods that have a lens (MethodInfo::hasLens) draw with the camera's lens; false: all draw
+    /// with a pinhole.
     bool usesLens = false;
     std::optional<double> fStop;         ///< in place of the camera's, at all times
     std::optional<double> focusDistance; ///< likewise, metres

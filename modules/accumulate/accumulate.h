@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Brute-force truth: M sharp frames at M instants of the exposure, averaged (Korein and Badler
-// 1983; Haeberli and Akeley 1990). Slow and right; what the other methods are held against.
+// 1983; Haeberli and Akeley 1990). Slow and exact; the reference of the other methods.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
@@ -35,7 +35,7 @@ using extract::PixelModel;
 [[nodiscard]] extract::ViewRequest
 makeSubpixel(const extract::ViewRequest& view, uint32_t index, uint32_t count, uint32_t seed);
 
-/// What a frame is of the mean of several.
+/// A frame's part in the mean of several.
 struct SummedFrame {
     bool isFirst = true; ///< the sum starts with it
     bool isLast = true;  ///< the context's colour becomes the mean

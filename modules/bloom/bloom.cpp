@@ -27,8 +27,8 @@ static_assert(kMostThreshold == shader::kMaxColor);
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kLeastSidePx = 4; ///< of the smallest image
 constexpr uint32_t kMostLevels = 10;
-/// Levels that light is spread over. Each but the coarsest has kOwnShare of what the finer ones
-/// leave.
+/// Levels that light is spread over. Each but the coarsest has kOwnShare of the light that the
+/// finer ones leave.
 constexpr int kSpreadLevels = 8;
 constexpr float kOwnShare = 0.3f;
 

@@ -24,7 +24,7 @@ class BudgetLadder {
     /// To 80, 60 and 40 % of `wanted`, then to the fewest that still blur; for a filter whose time
     /// is proportional to its samples. \param cost of the level before
     void reduceSamplesInSteps(uint32_t wanted, double cost);
-    /// \param givenUp what the method before had and the new one has not
+    /// \param givenUp quality of the previous method that the new one lacks
     void changeMethod(std::string_view method, const char* givenUp, uint32_t samples, double cost);
 
     /// Settings of the level added last.

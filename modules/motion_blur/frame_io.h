@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame gives to the effect and gets from it.
+// Inputs and outputs of the effect in a frame.
 //
 // Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
 // (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the
@@ -100,8 +100,8 @@ struct MotionBlurInputs {
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
     int64_t frameNumber = 0;
-    /// What each pixel of a rectangle of the picture saw at some of the instants is wanted
-    /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; others leave nothing.
+    /// Requests the surfaces visible in each pixel of a rectangle at some of the instants
+    /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; other methods give none.
     std::vector<shader::InstantSurfaces> surfaces;
     /// False: the frame is drawn for what RasterHistory keeps of it alone. For
     /// Method::readsInstantMotions, which then needs no timed rays.

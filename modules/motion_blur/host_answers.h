@@ -27,7 +27,7 @@ struct OwnReveal : HostAnswer<RevealTask> {};
 
 struct OwnSamples : HostAnswer<SampleTask> {};
 
-/// What the host draws over the blurred picture; fields as in ShutterBlurInputs.
+/// The host's drawing over the blurred picture; fields as in ShutterBlurInputs.
 struct OwnBlended {
     /// Called once for each part of the exposure, in their order. It must not throw.
     std::function<void(const BlendedTask&)> record;

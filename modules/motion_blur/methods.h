@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a method of blurring is, as data and passes. Each lives in a file of methods/, and
-// methods.cpp lists them.
+// A blur method, as data and passes. Each lives in a file of methods/, and methods.cpp lists them.
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -55,8 +54,8 @@ class MethodPasses {
     /// makes ahead.
     [[nodiscard]] virtual bool isReady() const { return true; }
 
-    /// Adds what the frame declared last for the slot counted, besides the blocks of SharedPasses;
-    /// the GPU must be done with that frame.
+    /// Adds the counters of the frame declared last for the slot, except for the blocks of
+    /// SharedPasses; the GPU must have finished that frame.
     virtual void count(uint32_t /*slot*/, Counters& /*counters*/) const {}
 };
 

@@ -32,9 +32,9 @@ class MotionBlur {
     /// first call starts to make them where the device makes pipelines ahead.
     [[nodiscard]] bool isReady(const Method& method);
 
-    /// What the frame declared last for the slot counted, once the GPU is done with it: "blocks
-    /// still", "blocks uniform", "blocks mixed" and "blocks masked" (of 8 x 8 pixels), and the
-    /// method's own, with MotionBlurInputs::wantsMethodCounters. Empty before the first, and
+    /// Returns the counters of the frame declared last for the slot, once the GPU has finished it:
+    /// "blocks still", "blocks uniform", "blocks mixed" and "blocks masked" (of 8 x 8 pixels), and
+    /// the method's own, with MotionBlurInputs::wantsMethodCounters. Empty before the first, and
     /// without MotionBlurInputs::wantsCounters.
     [[nodiscard]] Counters counters(uint32_t slot = 0) const;
 

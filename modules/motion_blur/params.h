@@ -16,7 +16,7 @@ namespace shutter::motion_blur {
 /// Maximum number of frames in flight, times views; each has its own counters.
 inline constexpr uint32_t kMostSlots = 64;
 
-/// Push constants of every pass: what all read and, behind it, the method's own block.
+/// Push constants of every pass: the common part, followed by the method's own block.
 struct PassParams : shader::MotionBlurParams {
     static constexpr size_t kMethodBytes = 64;
 
@@ -41,7 +41,7 @@ static_assert(sizeof(PassParams) == 128, "the push constants that every device h
 /// Maximum displacement of a tile's lookup by tileJitter() (taps.glsl), pixels.
 [[nodiscard]] float measureTileJitter(const PassParams& params);
 
-/// What the settings are to the shaders of their method. Pure.
+/// Converts settings to the parameters of the method's shaders. Pure function.
 /// \param rasterTime raster instant in the exposure, clamped to [0, 1]
 [[nodiscard]] PassParams
 resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime);

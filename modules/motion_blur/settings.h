@@ -47,13 +47,13 @@ enum class InstantNoise : uint8_t {
     Turning, ///< in each frame others
 };
 
-/// Defaults are what measures best; paperSettings() are the publication's. settings.cpp lists
+/// Defaults are the best measured values; paperSettings() are the publication's. settings.cpp lists
 /// ranges and units, each method's file which fields it reads, modules/motion_blur/settings.md what
 /// each costs.
 struct MotionBlurSettings {
     const Method* method = nullptr;  ///< methods.h; null: getDefaultMethod()
     uint32_t tileSizePx = 0;         ///< m; also the longest blur; 0: chooseTileSize()
-    uint32_t neighbourhoodTiles = 3; ///< n, odd; 1 lets blur end at tile borders
+    uint32_t neighbourhoodTiles = 3; ///< n, odd; with 1 blur ends at tile borders
     uint32_t sampleCount = 0;        ///< of Method::sampleUnit; 0: Method::defaultSamples
     float softDepthExtent = 0.0f;    ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
     float softDepthShare = 0.01f;    ///< of the depth, added to softDepthExtent

@@ -25,7 +25,7 @@ class SharedPasses {
     StillPixelsBy stillPixelsBy = StillPixelsBy::WholeCopy; ///< of this frame
 };
 
-/// What a filter over blocks of mixed motion reads.
+/// Inputs of a filter over blocks of mixed motion.
 struct BlockInputs {
     const MotionBlurInputs& frame;
     const TileMotionOutputs& tiles;

@@ -49,7 +49,7 @@ class StaticLayer {
     void forget();
 
   private:
-    /// What a frame was drawn of.
+    /// The contents of a frame.
     struct Record {
         extract::RasterRecord raster;
         std::vector<uint32_t> meshes; ///< by row

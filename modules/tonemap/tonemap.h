@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From linear HDR to what a display shows: gain, tone mapper, sRGB.
+// Converts linear HDR to display values: gain, tone mapper, sRGB.
 #pragma once
 
 #include "engine/core/setting_row.h"
@@ -31,9 +31,8 @@ struct TonemapSettings {
 /// 2^EV, the factor before the operator.
 [[nodiscard]] float computeGain(const TonemapSettings& settings);
 
-/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8). Where asked
-/// to (ViewFacts::brightestWanted), measures render::kBrightest on the way, as it reads each pixel
-/// anyway.
+/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8). On request
+/// (ViewFacts::brightestWanted) also measures render::kBrightest, since it reads each pixel anyway.
 class Tonemap : public render::PostEffect {
   public:
     Tonemap(gpu::Device& device, const TonemapSettings& settings);
@@ -53,7 +52,7 @@ class Tonemap : public render::PostEffect {
     /// Makes the buffer for a slot's group results. \return invalid: not requested
     [[nodiscard]] graph::BufferHandle prepareBrightest(render::PostContext& context);
 
-    /// What a frame's groups found.
+    /// Results of a frame's groups.
     struct Brightest {
         gpu::Buffer groups;      ///< float[]: of each group's pixels
         uint32_t groupCount = 0; ///< of the slot's frame; 0: not requested

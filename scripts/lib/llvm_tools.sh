@@ -9,8 +9,8 @@ llvm_version=14
 # What the checks exit with where their tool is missing: neither passed nor failed.
 not_checked=77
 
-# Prints the command that runs tool $1 (clang-format, clang-tidy) in that version. Where there is
-# none, says which there is instead and exits with status $not_checked.
+# Prints the command that runs tool $1 (clang-format, clang-tidy) in that version. If there is none,
+# prints the available ones and exits with status $not_checked.
 require_llvm_tool() {
     local name=$1 candidate version found='is not installed'
     for candidate in "$name-$llvm_version" "$name"; do

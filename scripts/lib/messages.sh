@@ -6,7 +6,7 @@ say() {
     printf '%s: %s\n' "${script_name:-shutter}" "$*"
 }
 
-# Says why on stderr and ends the script with status 1.
+# Prints the reason on stderr and ends the script with status 1.
 die() {
     printf '%s: %s\n' "${script_name:-shutter}" "$*" >&2
     exit 1

@@ -73,7 +73,7 @@ as_root() {
 }
 
 # Goes on when it fails: an archive that cannot be reached need not be one that we take from, and
-# apt-get install says what it did not find.
+# apt-get install reports missing packages.
 update_apt_lists() {
     say "refreshing the package lists"
     if ! as_root apt-get -q --error-on=any update; then

@@ -15,8 +15,8 @@ layout(push_constant, scalar) uniform Push { BloomParams params; };
 layout(binding = 0) uniform sampler2D uSource; // nearest
 layout(binding = 1, rgba16f) uniform writeonly image2D uHalf;
 
-/// What the group's pixels see of the source. Texels are fetched one by one, as the threshold is one of
-/// texels and not of their means.
+/// The group's part of the source. Texels are fetched one by one, as the threshold is one of texels
+/// and not of their means.
 shared vec3 tile[kTile * kTile];
 shared uint litThreads; // not 0: the tile has light
 

@@ -28,7 +28,7 @@ struct LayerMotion {
                    // the raster
 };
 
-/// What a frame's rasters and the one of the frame before hold.
+/// Motion tables of a frame's rasters and of the previous frame's.
 struct InstantMotions {
     LayerMotion raster;
     LayerMotion second; // of the exposure's other end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where what a pixel of a raster shows is seen in the course of the exposure: a parabola of shutter
-// time, and its form in an image of two words per pixel.
+// Motion of a raster pixel's surface over the exposure: a parabola of shutter time, and its
+// encoding in an image of two words per pixel.
 #ifndef SHUTTER_PIXEL_WAY_GLSL
 #define SHUTTER_PIXEL_WAY_GLSL
 

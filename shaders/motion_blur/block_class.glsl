@@ -35,8 +35,8 @@ SHUTTER_INLINE float classifyTile(
     return depthRange > softDepthExtent ? kClassDeep : kClassMixed;
 }
 
-/// How far the motions in a tile are from its longest one, at most: the diagonal of the box that
-/// holds them, and what the longest one was cut by to fit the tile.
+/// How far the motions in a tile are from its longest one, at most: the diagonal of their bounding
+/// box, and the amount by which the longest one was clamped to the tile.
 SHUTTER_INLINE float tileSpread(vec2 least, vec2 greatest, float longestPx, float limitPx) {
     return length(greatest - least) + max(longestPx - limitPx, 0.0f);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Totals of what a host composites over the blurred picture.
+// Totals of the layer that a host composites over the blurred picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker of a host's inputs reads back: totals over the picture, and samples of it.
+// Data that the checker of a host's inputs reads back: totals over the picture, and samples of it.
 #ifndef SHUTTER_CHECK_SHARED_H
 #define SHUTTER_CHECK_SHARED_H
 

@@ -25,7 +25,7 @@ layout(binding = 4, scalar) readonly buffer Surfaces {
 
 #include "common/surface_parts.glsl"
 
-/// What the picture knows more than the colours of the parts, whose mean it is otherwise.
+/// The difference between the picture and the mean of the parts' colours.
 vec3 findRest(vec3 picture, uvec2 at) {
     float shares[kMostSurfaceParts];
     for (uint part = 0u; part < kMostSurfaceParts; ++part) shares[part] = 0.0f;

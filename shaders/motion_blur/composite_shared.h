@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the pass that composites blended surfaces over the blurred picture and its shader agree on.
+// Interface between the pass that composites blended surfaces over the blurred picture and its
+// shader.
 #ifndef SHUTTER_COMPOSITE_SHARED_H
 #define SHUTTER_COMPOSITE_SHARED_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the filters fetch for each pixel of a list's blocks, for the cost view.
+// Fetches of the filters for each pixel of a list's blocks, for the cost view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

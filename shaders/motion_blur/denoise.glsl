@@ -38,7 +38,7 @@ SHUTTER_INLINE float atrousWeight(int k) {
 }
 
 /// Taps of level i are 2^i pixels apart. A level whose taps would reach further than the smear does
-/// to one side mixes what no exposure mixes.
+/// to one side mixes values that no exposure mixes.
 SHUTTER_INLINE bool levelFits(float stepPx, float motionPx) {
     return 2.0f * stepPx <= 0.5f * motionPx;
 }

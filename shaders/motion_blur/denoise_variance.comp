@@ -18,8 +18,8 @@ layout(binding = 3, rgba16f) uniform writeonly image2D uColorDeviation;
 /// Taps along the motion that detect surfaces passing the pixel.
 const int kPassersBy = 8; // to each side
 
-/// True where the pixel moves or something near it passes it. Elsewhere its rays have all seen the
-/// same, and what its neighbours differ by is texture and no noise.
+/// True where the pixel moves or something near it passes it. Elsewhere all its rays have the same
+/// result, and differences to its neighbours are texture, not noise.
 bool isPassed(vec2 centre, vec2 dominant) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     for (int i = -kPassersBy; i <= kPassersBy; ++i) {

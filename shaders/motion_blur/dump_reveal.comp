@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host answered to the reveal, for a dump; only pixels that asked mean anything.
+// A host's answers to the reveal, for a dump; only requested pixels are valid.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the ray mask's first two tests see, for debug views: r: candidate, g: edge measure x_n, b:
+// Results of the ray mask's first two tests, for debug views: r: candidate, g: edge measure x_n, b:
 // edge.
 #version 460
 #extension GL_GOOGLE_include_directive : require

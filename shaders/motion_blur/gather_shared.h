@@ -7,7 +7,7 @@
 
 SHUTTER_SHADER_BEGIN
 
-// What the gathers' pipelines may be made for (gather_taps.glsl).
+// Specialisations of the gathers' pipelines (gather_taps.glsl).
 SHUTTER_CONST uint kAnyTapCount = 0u; // as in the push constants
 SHUTTER_CONST uint kAnyResponse = 0u; // as in the push constants
 SHUTTER_CONST uint kBoxResponse = 1u;

@@ -30,7 +30,7 @@ bool mayChange(PixelSearch pixel) {
     return has(method, kHasLastLayer) && getCandidate(kLastLayer, pixel.tile, 0u).key != kNoKey;
 }
 
-/// Depth at an instant of what a block saw as one plane of this frame's raster.
+/// Depth at an instant of a block's plane in this frame's raster.
 float depthOfPlane(PixelSearch pixel, Seen seen, uint instant) {
     ivec2 texel = keepInside(ivec2(seen.at));
     Probe surface = fetchSurface(kRasterLayer, texel);

@@ -63,7 +63,7 @@ bool meetsEdgeBlock(vec2 centre, vec2 offset, float range) {
     return false;
 }
 
-/// Whether the edge belongs to what the pixel shows or lies no nearer.
+/// Whether the edge belongs to the pixel's surface or is no nearer.
 bool mayReveal(vec2 edgeUv, vec2 centreUv, float depth) {
     if (textureLod(uEntityId, edgeUv, 0.0f).x == textureLod(uEntityId, centreUv, 0.0f).x)
         return true;

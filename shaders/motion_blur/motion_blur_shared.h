@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the motion blur's passes and their shaders agree on.
+// Interface between the motion blur's passes and their shaders.
 #ifndef SHUTTER_MOTION_BLUR_SHARED_H
 #define SHUTTER_MOTION_BLUR_SHARED_H
 

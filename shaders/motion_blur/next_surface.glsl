@@ -10,8 +10,8 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Error of a distance along a ray, as a share of it: 32 float steps, more than what the
-/// intersection and the way into the entity's space and back add up to.
+/// Error of a distance along a ray, as a share of it: 32 float steps, more than the sum of the
+/// errors of the intersection and of the transforms into the entity's space and back.
 SHUTTER_CONST float kRayError = 3.8e-6f;
 
 /// Error, metres, of a distance that a ray found.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panels over a host's picture that show what the motion blur reads, except for ids.
+// Panels over a host's picture that show the motion blur's inputs, except for ids.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

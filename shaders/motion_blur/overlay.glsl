@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the panels over a host's picture show. Colours are linear, in [0, 1].
+// Contents of the panels over a host's picture. Colours are linear, in [0, 1].
 #ifndef SHUTTER_OVERLAY_GLSL
 #define SHUTTER_OVERLAY_GLSL
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panels over a host's picture that show what the motion blur reads.
+// Panels over a host's picture that show the motion blur's inputs.
 #ifndef SHUTTER_OVERLAY_SHARED_H
 #define SHUTTER_OVERLAY_SHARED_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a pixel may see at an instant, as places in a layer's picture.
+// The ray of a pixel at an instant, as places in a layer's picture.
 #ifndef SHUTTER_PIXEL_RAY_GLSL
 #define SHUTTER_PIXEL_RAY_GLSL
 

@@ -31,7 +31,7 @@ struct PrepareTable {
     PrepareArea blurScale;
     vec4 depthFromValue; // metres = (x + y value) / (z + w value)
     vec2 pixelsPerUnit;  // of the vectors: to the picture's, right and down, from before to now
-    vec2 jitterPx;       // what the vectors hold of the change of jitter, in the same sense
+    vec2 jitterPx;       // the change of jitter included in the vectors, in the same direction
     float skyValue;      // background value of the depth image; NaN: there is none
     float cameraScale;   // share of the motion over a frame that is blurred
     float objectScale;   // the same for what objects move by themselves

@@ -25,7 +25,7 @@ layout(binding = 7, rgba16f) uniform writeonly image2D uBlurred;
 
 #include "motion_blur/gather_layer.glsl"
 
-/// What a masked pixel gathers from the revealed layer.
+/// The gather of a masked pixel from the revealed layer.
 Gathered gatherRevealed(vec2 dominant, vec2 centre) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     vec2 uv = centre * pixelsToUv;

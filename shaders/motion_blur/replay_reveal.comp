@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gives back what a dump holds of the reveal.
+// Writes the reveal's answers from a dump.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -81,7 +81,7 @@ void main() {
     if (fromSecond > 0u) atomicAdd(uCounters.fromSecond, fromSecond);
     if (fromLast > 0u) atomicAdd(uCounters.fromLast, fromLast);
     if (found < searched) atomicAdd(uCounters.unresolved, searched - found);
-    // What nothing is known of counts as what the pixel saw else.
+    // Unknown samples get the mean of the pixel's known samples.
     uint known = found + guessed;
     vec3 color = known > 0u ? sum / float(known) : fetchColor(kRasterLayer, pixel);
     float alpha = 1.0f;

@@ -33,7 +33,7 @@ layout(binding = 5) uniform usampler2D uEdgeSurface; // with kHasEdges
 #include "motion_blur/resolved_enter.glsl"
 #include "motion_blur/resolved_extents.glsl"
 
-// What the group found in its tile.
+// Results of the group in its tile.
 shared uint sKeys[kCandidatesPerTile];
 shared uint sNearest[kCandidatesPerTile];
 shared uint sFarthest[kCandidatesPerTile];
@@ -67,7 +67,7 @@ void listExtent(Extent extent) {
     atomicOr(sIsFull, 1u);
 }
 
-/// What the group found in the slot.
+/// The group's result in the slot.
 Extent getListed(uint slot) {
     Extent extent = kNoExtent;
     extent.key = sKeys[slot];

@@ -85,7 +85,7 @@ void searchCrowd(
     }
 }
 
-/// What a pixel of a crowded tile sees.
+/// Finds the sample of a pixel in a crowded tile.
 Seen searchCrowds(PixelSearch pixel, uint instant) {
     Seen seen = pixel.still;
     searchCrowd(kRasterLayer, pixel.raster, pixel, instant, seen);

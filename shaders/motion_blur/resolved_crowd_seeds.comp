@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How whatever comes over each tile moves, where lists of entities do not hold it: a place for each way
-// of moving, at which the search for what a pixel saw begins. Marks the tiles that entities without a
-// list reach. A group takes a tile of a layer, a thread a row of it.
+// Seeds for tiles whose candidate lists overflow: one place for each distinct motion over the tile,
+// at which the search of a pixel begins. Marks the tiles that unlisted entities reach. A group
+// processes a tile of a layer, a thread a row of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -40,7 +40,7 @@ uvec2 fetchSurface(uint layer, ivec2 pixel) {
     return textureLod(uSurface, uv, 0.0f).xy;
 }
 
-/// Whether what the layer shows in the tile is in no list.
+/// Whether the layer's entities in the tile are in no list.
 bool isUnlisted(uint layer, uint tile) {
     uint listed = CrowdTable(method.crowds).tiles[tile].listed;
     return (listed & (kSourceIsListed << layer)) == 0u;

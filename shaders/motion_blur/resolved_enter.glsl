@@ -22,7 +22,8 @@ void noteCrowd(uint tile, uint bits) {
     atomicMax(uCrowdArguments.groupsZ, countLayers());
 }
 
-/// What a layer shows in the tile is more than can be listed, and is in no list.
+/// Marks that the layer has more entities in the tile than can be listed, so that they are in no
+/// list.
 void noteUnlistedSource(uint tile, uint layer) {
     noteCrowd(tile, kSourceIsListed << layer | (layer == kRasterLayer ? kTileIsListed : 0u));
 }

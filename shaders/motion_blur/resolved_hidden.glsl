@@ -86,8 +86,8 @@ float farthestInRaster(Candidate candidate, PixelRay ray, bool perspective) {
     return perspective ? depth / along : depth;
 }
 
-/// Considers an entity that the search did not find: it may be hidden where the pixel would see it. If
-/// what the raster shows there is farther, the entity is not there at all.
+/// Considers an entity that the search did not find: it may be hidden where the pixel would see it.
+/// If the raster's surface there is farther, the entity is not there at all.
 void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Substitute best) {
     InstantMotion motion = InstantMotionTable(pixel.raster.motions)
                                .motions[candidate.mover * method.instantCount + instant];

@@ -65,7 +65,7 @@ struct Seen {
     bool isInner; // all that the layer shows around the place is of the same entity or plane
 };
 
-/// What a pixel of a layer shows.
+/// The surface of a layer's pixel.
 struct Probe {
     uint key;
     float depth;

@@ -58,14 +58,14 @@ const float kNoiseRampPx = 2.0f;
 // With a lens.
 /// Distance between samples from which pixels have individual sets, which a filter then averages.
 const float kLensNoiseFromPx = 1.0f;
-/// Reach within which what a block sees counts as in focus and still, pixels.
+/// Reach within which a block counts as in focus and static, pixels.
 const float kStillReachPx = 0.125f;
 /// Way up to which a few samples do.
 const float kSharedWayPx = 0.5f;
 /// Instants at which a way is measured: what spins is seldom where it was at all of them.
 const uint kWayInstants = 5u;
 
-/// What a tile's candidates have in common in a part of the exposure.
+/// Data shared by a tile's candidates in a part of the exposure.
 struct Shared {
     uint mover;  // kNoMover: nothing
     vec2 alongs; // least and greatest of all, at the instant
@@ -171,8 +171,8 @@ PlaneMap lookAt(
     return map;
 }
 
-/// \return whether this frame's raster shows the candidate where the block would see it, as far as the
-/// keys of blocks say
+/// \return whether this frame's raster shows the candidate where the block would see it, according
+/// to the keys of blocks
 bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspective) {
     uint bit = keyBit(candidate.key);
     // The present occluder of the rest is searched at every instant: surfaces next to it become
@@ -423,7 +423,8 @@ void addPlace(vec2 place, inout Course course) {
     course.last = place;
 }
 
-// What the lanes of a block exchange, by block of the group. A lane that is alone needs none of it.
+// Data exchanged by the lanes of a block, by block of the group. A lane that is alone needs none of
+// it.
 const uint kMostBlocks = kGroupSize * kGroupSize / 4u;
 shared vec2 sPlaces[kMostBlocks][kMostLooks];
 shared uint sIsPlane[kMostBlocks]; // a bit for each instant

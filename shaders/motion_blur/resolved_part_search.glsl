@@ -29,7 +29,7 @@ bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
     return true;
 }
 
-/// What the searches for one part at one instant share.
+/// Data shared by the searches for one part at one instant.
 struct PartSearch {
     uint layer;
     uint key;
@@ -39,8 +39,8 @@ struct PartSearch {
     mat2 back; // how places in the layer move with the place that they are seen at
 };
 
-/// By Newton's steps from one place, each on the motion of the pixel there: keeps what the pixel sees of
-/// the entity, if it does.
+/// By Newton's steps from one place, each on the motion of the pixel there: stores the pixel's
+/// sample on the entity, if there is one.
 void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt) {
     [[dont_unroll]] for (uint step_ = 0u; step_ < kPartSteps; ++step_) {
         if (!isInside(at)) return;

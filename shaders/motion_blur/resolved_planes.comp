@@ -102,7 +102,7 @@ void main() {
     ivec2 size = min(ivec2(params.sizePx) - first, ivec2(kGroupSize));
     BlockPlane plane = kNoPlane;
     uint index = tile.y * tiles.x + tile.x;
-    // What a raster shows is a candidate of its tile, unless it is static or one of too many.
+    // A raster's entities are candidates of their tile, unless they are static or too many.
     if (uTiles[index].candidates[0].key != kNoKey || isCrowded(index))
         plane = findKeys(first, size, layer, perspective);
     if (plane.mover != kNoMover && plane.mover != kDeformedMover)

@@ -223,7 +223,7 @@ void searchDepths(
 
 #include "motion_blur/resolved_part_search.glsl"
 
-/// What the searches of one pixel share.
+/// Data shared by the searches of one pixel.
 struct PixelSearch {
     vec2 x;        // the place that is searched from
     vec2 centre;   // of the pixel
@@ -248,7 +248,7 @@ struct PixelSearch {
 /// How much farther, as a share, a surface must be to refute a nearer one.
 const float kRefutingShare = 1.0e-3f;
 
-/// How far a place is from what its pixel was sampled at.
+/// Distance of a place from its pixel's sample position.
 float fromCentre(vec2 at) { return distance(fract(at), vec2(0.5f)); }
 
 /// Whether this frame's raster shows something farther where it would show the surface: then the pixel

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the passes of `resolved` and their shaders agree on.
+// Interface between the passes of `resolved` and their shaders.
 #ifndef SHUTTER_RESOLVED_SHARED_H
 #define SHUTTER_RESOLVED_SHARED_H
 
@@ -13,7 +13,7 @@ SHUTTER_CONST uint kCandidateTilePx = 16u;
 SHUTTER_CONST uint kCandidatesPerTile = 32u;
 
 /// Key of the sky; entities have the row of the entity table, which stays below. Keys have 24 bits:
-/// what a host gives larger ids than any row has kUnknownKey, of which nothing is known.
+/// a host's ids above those have kUnknownKey, whose motion is unknown.
 SHUTTER_CONST uint kSkyKey = 0xFFFFFFu;
 SHUTTER_CONST uint kUnknownKey = kSkyKey - 1u;
 SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
@@ -43,8 +43,8 @@ SHUTTER_CONST uint kNoSeed = 0xFFFFFFFFu;
 
 // Bits of TileCrowd::listed.
 SHUTTER_CONST uint kTileIsListed = 1u; // 0: the tile is crowded, and its lists mean nothing
-/// Shifted by the layer. 0: what the layer shows in the tile is more than a list holds, and in
-/// none.
+/// Shifted by the layer. 0: the layer has more entities in the tile than a list holds, and they are
+/// in none.
 SHUTTER_CONST uint kSourceIsListed = 2u;
 
 /// Data of a tile and layer in a frame whose lists may overflow. Every field starts with all bits
@@ -58,8 +58,8 @@ struct TileCrowd {
     uint seeds[kCrowdSeeds];
 };
 
-/// What a block of kGroupSize x kGroupSize pixels of this frame's raster shows, as one plane: the
-/// sky, before a perspective camera, belongs to the world, infinitely far away.
+/// A block of kGroupSize x kGroupSize pixels of this frame's raster as one plane: the sky, before a
+/// perspective camera, belongs to the world, infinitely far away.
 struct BlockPlane {
     uint keys;       // keyBit() of each key in it; 0 where nothing moves
     uint mover;      // of all its pixels; kNoMover: several, or of a mover without a plane;
@@ -85,9 +85,9 @@ struct BlockLook {
 
 SHUTTER_CONST uint kSearchedLook = 0xFFFFFFFFu; // two NaN
 
-/// Samples that rays may replace, by the harm that leaving them does: what no layer explains, then
-/// edges within a pixel by the colours on both sides (within one entity, where colours are
-/// interpolated, by a share of their contrast), then the rest.
+/// Samples that rays may replace, by expected error: samples that no layer holds, then edges within
+/// a pixel by the colours on both sides (within one entity, where colours are interpolated, by a
+/// share of their contrast), then the rest.
 SHUTTER_CONST uint kUnresolvedClass = 0u;
 SHUTTER_CONST uint kFirstEdgeClass =
     1u; // colours that differ by a half and more; half of that; ...
@@ -128,7 +128,7 @@ struct ResolvedParams {
     uvec2 crowds;
 };
 
-/// What a frame counted.
+/// Counters of a frame.
 struct ResolvedCounters {
     uint unresolved;   // instants of pixels that no layer explains
     uint fromSecond;   // instants of pixels that the raster of the exposure's other end explains

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each pixel of a block saw where all that the block may see is one plane of this frame's raster:
-// only colours are read.
+// Resolves blocks that can see only one plane of this frame's raster: only colours are read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -24,7 +23,7 @@ layout(binding = 2, scalar) readonly buffer Looks { BlockLook uLooks[]; };
 /// Pixels of a block, in one column, per thread: they share loaded data.
 const uint kRows = kGroupSize / kThreadRows;
 
-/// What all pixels of the column see at the same instants.
+/// Adds the samples of all pixels of the column at the same instants.
 void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     uint first = looks + middleSet(method);
@@ -38,7 +37,7 @@ void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     }
 }
 
-/// What each sees at its own instants: as many as there are.
+/// Adds the samples of each pixel at individual instants.
 void addOwn(ivec2 pixel, uint looks, vec2 inBlock, float noise, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     for (uint row = 0u; row < kRows; ++row) {

@@ -9,9 +9,9 @@
 
 SHUTTER_SHADER_BEGIN
 
-// What a pixel sees at time s of a surface that moves by m lies at u m from it, u = s_r - s: the taps
-// fill [s_r - 1, s_r]. The publications write for a centred exposure, s_r = 1/2, where that is one
-// half velocity to each side; another phase moves the same taps along the motion.
+// A surface with motion m that a pixel sees at time s is at u m from it in the raster, u = s_r - s:
+// the taps fill [s_r - 1, s_r]. The publications write for a centred exposure, s_r = 1/2, where
+// that is one half velocity to each side; another phase moves the same taps along the motion.
 
 /// Tap `index` of `count` strata of equal length, u.
 /// \param offset in the stratum, [0, 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the draws of the blended layer and its shaders agree on.
+// Interface between the draws of the blended layer and its shaders.
 #ifndef SHUTTER_BLENDED_LAYER_SHARED_H
 #define SHUTTER_BLENDED_LAYER_SHARED_H
 
@@ -13,7 +13,7 @@ struct LayerPlace {
     vec4 eyeFromObject[3]; // rows; eye space of the raster instant (scene_shared.h)
 };
 
-/// What all draws of an instant share.
+/// Data shared by all draws of an instant.
 struct LayerInstant {
     // Rows: from eye space to the picture space in which depths are compared
     // (instant_motion_shared.h): of the instant's camera, or of the raster's.

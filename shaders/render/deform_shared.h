@@ -28,7 +28,7 @@ struct WaveRow {
     vec4 waveVector;   // xyz radians per metre
 };
 
-/// DeformJob::waveShare: what the share of its waves that a vertex follows depends on. Colour: the
+/// DeformJob::waveShare: the attribute that determines a vertex's share of the waves. Colour: the
 /// number of its channel is added.
 SHUTTER_CONST uint kWaveShareAll = 0u;
 SHUTTER_CONST uint kWaveShareHeight = 1u;

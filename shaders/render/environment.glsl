@@ -35,7 +35,7 @@ vec3 backgroundRadiance(FrameRef frame, vec3 direction) {
     return sampleSceneTexture(environment.value.background, uv, level).rgb;
 }
 
-/// What a surface sends back of the light from everywhere.
+/// The environment's light that a surface reflects.
 /// \param diffuse, mirrored shares of it, per channel
 /// \param normal, towardsViewer unit
 vec3 reflectEnvironment(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The point of a surface that a fragment shows, from what the vertex shaders of meshes hand on.
+// The point of a surface that a fragment shows, from the outputs of the vertex shaders of meshes.
 #ifndef SHUTTER_FRAGMENT_POINT_GLSL
 #define SHUTTER_FRAGMENT_POINT_GLSL
 
-// At the centroid of what the triangle covers of the pixel: with several samples per pixel, the centre
-// may lie outside of it.
+// At the centroid of the triangle's coverage of the pixel: with several samples per pixel, the
+// centre may lie outside of it.
 layout(location = 0) centroid in vec3 inEyePosition;
 layout(location = 1) centroid in vec3 inNormal;
 layout(location = 2) centroid in vec4 inTangent;

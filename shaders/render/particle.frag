@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a particle covers of a pixel's centre, mean over a part of the exposure: premultiplied.
+// A particle's coverage of a pixel's centre, mean over a part of the exposure: premultiplied.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -60,7 +60,7 @@ void main() {
         known += own;
     }
     vec4 mean = sum / float(partCount);
-    // What the picture knows more than the parts.
+    // The difference between the picture and the mean of the parts.
     if (readsParts) behind = (behind + mean.a * (float(partCount) * color.rgb - known)) / float(partCount);
     else behind = mean.a * color.rgb;
     // Where no particle is, not a bit changes.

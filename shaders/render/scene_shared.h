@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the renderer and its shaders agree on. "Eye space" here has the world's axes and its origin
-// at the camera's position at the raster instant: small numbers wherever the camera is.
+// Interface between the renderer and its shaders. "Eye space" here has the world's axes and its
+// origin at the camera's position at the raster instant: small numbers wherever the camera is.
 #ifndef SHUTTER_SCENE_SHARED_H
 #define SHUTTER_SCENE_SHARED_H
 

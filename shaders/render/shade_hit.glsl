@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray sees where it hit, by the shading of the raster image.
+// Radiance of a ray's hit, with the shading of the raster image.
 #ifndef SHUTTER_SHADE_HIT_GLSL
 #define SHUTTER_SHADE_HIT_GLSL
 

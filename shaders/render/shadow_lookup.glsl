@@ -30,7 +30,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sha
     float values[];
 };
 
-/// What a point's shadows come from.
+/// Sources of a point's shadows.
 struct ShadowSource {
     bool byMaps;   // the frame's maps, where it has any; else `dark`
     uint dark;     // a bit for each light that does not reach the point

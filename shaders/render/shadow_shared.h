@@ -92,7 +92,7 @@ struct ShadowInstant {
 /// affine map per instant, linear in the instant's number.
 struct ShadowRun {
     vec4 first[3]; // rows of the first instant's: x and y in texels, depth with its bias
-    vec4 step[3];  // what each further instant adds
+    vec4 step[3];  // added by each further instant
     vec4 slope[2]; // xyz: times a unit normal, over its cosine with the way to the light, it is the
                    // slope of a plane's depth, a texel, towards x and y
     uint firstTexel;

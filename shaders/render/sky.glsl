@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a pixel holds that no entity covers. Raster and rays that miss agree on it.
+// The value of a pixel that no entity covers. The same for the raster and for rays that miss.
 #ifndef SHUTTER_SKY_GLSL
 #define SHUTTER_SKY_GLSL
 

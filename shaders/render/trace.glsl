@@ -51,8 +51,8 @@ bool isDrawn(
     return isCovered(frame, materials.rows[index], hit.point, direction);
 }
 
-/// What a ray goes on from: surfaces of `entity` at t <= `until` are passed. kNoEntity: none is, and
-/// opaque surfaces need not be shown to the shader.
+/// The surface from which a ray continues: surfaces of `entity` at t <= `until` are skipped.
+/// kNoEntity: none is, and opaque surfaces need no any-hit test.
 struct LeftSurface {
     uint entity;
     float until;
@@ -72,8 +72,8 @@ bool isMet(
 
 uint findRayFlags(uint mask, LeftSurface left) {
     uint flags = gl_RayFlagsCullBackFacingTrianglesEXT;
-    // A mesh may have opaque parts besides blended ones: kept out of rays for these. Others are shown
-    // them like any candidate where they have to be asked whose they are.
+    // A mesh may have opaque parts besides blended ones: kept out of rays for these. For other rays
+    // they are ordinary candidates where their entity has to be tested.
     if ((mask & kSolidMask) == 0u) flags |= gl_RayFlagsCullOpaqueEXT;
     else if (left.entity != kNoEntity) flags |= gl_RayFlagsNoOpaqueEXT;
     return flags;

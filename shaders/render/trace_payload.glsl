@@ -5,7 +5,7 @@
 
 struct TracePayload {
     uvec2 frame;     // to the candidates' shader: address of FrameConstants,
-    uint mask;       // what the ray meets
+    uint mask;       // what the ray may hit
     uint leftEntity; // and the surface to pass: LeftSurface
     float leftUntil;
     uint found; // back: 1 where it hit

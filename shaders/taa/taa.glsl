@@ -88,8 +88,7 @@ SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
 /// Steps of 1 in Kept::sum: finer than a half float's where a display can distinguish colours.
 SHUTTER_CONST float kSteps = 16777216.0f;
 
-/// What a pixel keeps for the frames after. Whole numbers, because their sum is the same in whatever
-/// order the frames came.
+/// A pixel's history. Whole numbers, so that their sum does not depend on the order of frames.
 struct Kept {
     ivec3 sum;   // of compressed colours, in steps of 1 / kSteps
     float count; // of frames in the sum, up to below kPlaceCount + 1; 0: none

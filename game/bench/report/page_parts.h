@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the report's page is put together from: the files embedded in this program, placeholders,
-// JSON inside a <script> element, bytes as text, films, and pictures: whole ones as JPEG, for an
-// overview, and the parts that are shown enlarged as PNG, exact.
+// Parts of the report's page: the files embedded in this program, placeholders, JSON inside a
+// <script> element, bytes as text, films, and pictures: whole ones as JPEG, for an overview, and
+// the parts that are shown enlarged as PNG, exact.
 #pragma once
 
 #include "engine/core/result.h"
@@ -41,8 +41,8 @@ fillPage(std::string_view page, const std::map<std::string, std::string_view>& v
 /// RFC 4648, section 4: the standard alphabet, padded, without line breaks.
 [[nodiscard]] std::string encodeBase64(std::span<const uint8_t> bytes);
 
-/// What the page's scripts read: `whole`, path to data URI; `parts`, path to an array of
-/// {x, y, width, height, uri}. Error: a file is missing, outside `folder` or no PNG, or a crop lies
+/// Input of the page's scripts: `whole`, path to data URI; `parts`, path to an array of {x, y,
+/// width, height, uri}. Error: a file is missing, outside `folder` or no PNG, or a crop lies
 /// outside its picture.
 [[nodiscard]] core::Result<nlohmann::json>
 encodePictures(const nlohmann::json& results, const std::filesystem::path& folder);

@@ -22,7 +22,7 @@ constexpr uint64_t kMaxResultsBytes = 256ULL << 20;
 /// Nested objects and arrays; what walks them calls itself for each. Results have eight.
 constexpr int kMaxDepth = 32;
 
-/// What the page cannot do without; the rest it shows where it is there.
+/// Checks the fields that the page requires; others are optional.
 core::Status checkResults(const json& results) {
     if (!results.is_object() || results.value("schema", json()) != kSchema)
         return core::makeError("the results are not of the schema '{}'", kSchema);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark suite consists of, as data.
+// A benchmark suite as data.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -65,8 +65,8 @@ struct Suite {
     std::vector<Case> cases;             ///< compared with the truth
     std::vector<ScalingAxis> axes;       ///< timed only
     std::vector<SequenceCase> sequences; ///< compared with the truth frame by frame
-    /// What the truth shows of a pixel: its centre, as the methods do, or the mean that a camera
-    /// sees.
+    /// Pixel model of the truth: the centre, as in the methods, or the mean over the pixel, as in a
+    /// camera.
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t repeats = 7;       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped

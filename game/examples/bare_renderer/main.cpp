@@ -110,7 +110,7 @@ int main() try {
     const vk::DeviceQueueCreateInfo queueInfo({}, 0, 1, &priority);
     auto v13 = vk::PhysicalDeviceVulkan13Features().setDynamicRendering(true);
     auto v12 = vk::PhysicalDeviceVulkan12Features().setPNext(&v13);
-    vk::PhysicalDeviceFeatures2 features({}, &v12); // (1) with what the effect needs enabled
+    vk::PhysicalDeviceFeatures2 features({}, &v12); // (1) with the effect's features enabled
     require(bool(shutter::MotionBlur::addFeatures(features)), shutterBlurGetMessage());
     const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, &features);
     const Gpu gpu{physical, {physical, deviceInfo}};

@@ -60,7 +60,7 @@ int main(void) {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
     VkPhysicalDeviceFeatures2 features = {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
-    check(shutterBlurAddFeatures(&features)); /* (1) what the device must have enabled */
+    check(shutterBlurAddFeatures(&features)); /* (1) required device features */
     const VkDeviceQueueCreateInfo queueInfo = {
         VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, NULL, 0, 0, 1, &(float){1.0f}};
     const VkDeviceCreateInfo deviceInfo = {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion blur of what a renderer deforms itself: a flag that its vertex shader waves, from which it
-// writes "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4); bare_renderer has less.
+// Motion blur of meshes that a renderer deforms itself: a flag that its vertex shader waves, from
+// which it writes "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4); bare_renderer
+// has less.
 #include "spirv/flag.frag.h"
 #include "spirv/flag.vert.h"
 
@@ -58,7 +59,7 @@ struct Image {
     }
 };
 
-/// What the flag is drawn into: colour, motion and depth, entity ids, deformed motion; depth.
+/// Targets of the flag: colour, motion and depth, entity ids, deformed motion; depth.
 struct Targets {
     std::vector<Image> images;
 
@@ -162,7 +163,7 @@ int main() try {
     const vk::DeviceQueueCreateInfo queueInfo({}, 0, 1, &priority);
     auto v13 = vk::PhysicalDeviceVulkan13Features().setDynamicRendering(true);
     auto v12 = vk::PhysicalDeviceVulkan12Features().setPNext(&v13);
-    vk::PhysicalDeviceFeatures2 features({}, &v12); // (1) with what the effect needs enabled
+    vk::PhysicalDeviceFeatures2 features({}, &v12); // (1) with the effect's features enabled
     require(bool(shutter::MotionBlur::addFeatures(features)), shutterBlurGetMessage());
     const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, &features);
     const Gpu gpu{physical, {physical, deviceInfo}};

@@ -21,7 +21,7 @@ struct ShutterBlur {
     std::unique_ptr<motion_blur::EmbeddedMotionBlur> effect;
     uint32_t framesInFlight = 0;
     motion_blur::InputArrays arrays;
-    // What a report points to.
+    // Storage behind a report's pointers.
     motion_blur::HostReport report;
     std::vector<ShutterBlurPassTime> passes;
     std::vector<ShutterBlurCounter> counters;

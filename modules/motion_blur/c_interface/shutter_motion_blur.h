@@ -119,8 +119,8 @@ typedef struct ShutterBlurDevice {
     /* Checks the inputs of each recording for range and consistency, and reports faults to
      * `message` (modules/motion_blur/embedding/README.md). 0 costs nothing. */
     VkBool32 checksInputs;
-    /* Gets what the checker finds, why a dump failed, and that the object is destroyed too early;
-     * or null. */
+    /* Receives findings of the checker, failures of a dump, and a warning if the object is
+     * destroyed too early; or null. */
     ShutterBlurMessage message;
     void* messageUser; /* its first argument */
 } ShutterBlurDevice;
@@ -176,9 +176,9 @@ SHUTTER_BLUR_API const char* shutterBlurGetMethod(uint32_t index);
 
 /* ---- Inputs --------------------------------------------------------------------------------- */
 
-/* What the host does with an image before the motion blur or after it. Stages of 0 are all
- * commands, with all they read and write; otherwise as in VkImageMemoryBarrier2. No barrier of the
- * host's is needed in between. */
+/* The host's use of an image before or after the motion blur. Stages of 0 are all commands, with
+ * all they read and write; otherwise as in VkImageMemoryBarrier2. No barrier of the host's is
+ * needed in between. */
 typedef struct ShutterBlurUse {
     VkImageLayout layout; /* before: UNDEFINED drops the contents. After: UNDEFINED, as it comes */
     VkPipelineStageFlags2 stages;
@@ -448,8 +448,8 @@ typedef struct ShutterBlurInputs {
      * unlimited. With ShutterBlurDevice::measures. */
     double budgetMilliseconds;
 
-    /* For debugging: panels over the blurred picture show what the effect reads, and what of it the
-     * camera explains (modules/motion_blur/embedding/README.md). Dumps are without. */
+    /* For debugging: panels over the blurred picture show the effect's inputs, and the part that
+     * the camera explains (modules/motion_blur/embedding/README.md). Dumps are without. */
     VkBool32 showsInputs;
     /* The shutter's response: times rise from 0 to 1, and it is straight between them. */
     const ShutterBlurResponsePoint* responsePoints;
@@ -569,7 +569,7 @@ shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* repor
 
 /* ---- Memory and pipelines ------------------------------------------------------------------- */
 
-/* What a host is going to record, before it has images. */
+/* Description of future recordings, before there are images. */
 typedef struct ShutterBlurPlan {
     uint32_t structBytes;
     uint32_t width; /* of the picture, pixels */

@@ -96,7 +96,7 @@ ordered_json describeSettings(const MotionBlurSettings& settings) {
     return root;
 }
 
-/// What the host drew over the picture.
+/// Describes the host's drawing over the picture.
 ordered_json describeDraws(const HostInputs& inputs, const MotionBlurSettings& settings) {
     const shader::InstantSurfaces head = describeDrawn(inputs, settings, nullptr).rectangle;
     return {

@@ -112,7 +112,7 @@ class EmbeddedMotionBlur {
     core::Status finishFrame(uint32_t frame);
     /// To the host's message, or the log.
     void warn(const std::string& sentence) const;
-    /// What the budget leaves of the settings.
+    /// Returns the settings under the budget.
     [[nodiscard]] const MotionBlurSettings&
     chooseSettings(uint32_t frame, const HostInputs& inputs, const MotionBlurSettings& settings);
     core::Status record(Frame& frame, View& view, VkCommandBuffer commands);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an EmbeddedMotionBlur consists of; its own files alone include this.
+// Parts of EmbeddedMotionBlur; included only by its sources.
 #pragma once
 
 #include "engine/gpu/frame.h"
@@ -35,7 +35,7 @@ struct EmbeddedMotionBlur::Slot {
     gpu::Buffer overlay;     ///< shader::OverlayTable, where inputs are shown
     gpu::Buffer response;    ///< shader::ResponseTable, where points of it are given
     uint64_t handedOver = 0; ///< timeline value of the last recording
-    uint32_t recordings = 0; ///< what the GPU marks once it has run the last of them
+    uint32_t recordings = 0; ///< counter that the GPU marks once it has run the last of them
     bool isToldDone = true;  ///< by markDone(), or there is none
     bool counts = false;     ///< the last recording has counters
     uint32_t view = 0;       ///< of the last recording

@@ -9,7 +9,7 @@
 
 namespace shutter::motion_blur {
 
-/// Whether the method leaves what the host's draws are tested against.
+/// Whether the method provides the surfaces that the host's draws are tested against.
 [[nodiscard]] bool findsSurfaces(const HostInputs& inputs, const MotionBlurSettings& settings);
 
 /// \param inputs that checkDrawn() took

@@ -50,7 +50,7 @@ struct HostScales {
     bool isCut = false;
 };
 
-/// What a preparation makes the motion blur's inputs of.
+/// The host's inputs of the conversion pass.
 struct HostConvention {
     HostVectors vectors;
     HostDepth depth;

@@ -95,7 +95,7 @@ uint32_t chooseTexels(const HostImage& image) {
     return isHalf ? shader::kDumpHalf4 : shader::kDumpFloat4;
 }
 
-/// Names an image of what the host drew in a part of the exposure.
+/// Names an image of the host's drawing in a part of the exposure.
 std::string nameDrawn(uint32_t part, bool isOpacity) {
     return fmt::format("drawn{}{}", isOpacity ? "Opacity" : "Color", part);
 }

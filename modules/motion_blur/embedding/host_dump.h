@@ -57,7 +57,7 @@ class HostDump {
         const ImportedInputs& images,
         const MotionBlurSettings& settings,
         const shader::ResponseTable* response);
-    /// The same for what the host drew over the picture, after add().
+    /// The same for the host's drawing over the picture, after add().
     void addDrawn(graph::Graph& graph, uint32_t frame, const std::vector<BlendedSums>& parts);
     /// The same for the blurred picture, after all else.
     void addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandle picture);

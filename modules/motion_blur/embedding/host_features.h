@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host's device must have enabled for the motion blur.
+// Required features of a host's device.
 #pragma once
 
 #include "engine/core/result.h"

@@ -112,7 +112,7 @@ core::Status checkArea(const HostImage& image, const HostImageRule& rule, VkExte
     return {};
 }
 
-/// Whether the device's images of the format can be what the input needs.
+/// Checks that the device supports the input's usage for images of the format.
 core::Status
 checkSupport(VkPhysicalDevice device, const HostImage& image, const HostImageRule& rule) {
     const VkFormat format = formatOf(image, rule);

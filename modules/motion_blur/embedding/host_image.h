@@ -46,7 +46,7 @@ struct HostImageRule {
 [[nodiscard]] core::Status
 checkImage(const HostImage& image, const HostImageRule& rule, VkExtent2D picture);
 
-/// What an image is held against.
+/// Limits that an image is checked against.
 struct ImageLimits {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE; ///< null: images are handles of nothing

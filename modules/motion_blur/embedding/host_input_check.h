@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a recording can be made of what a host hands in; one sentence where it cannot.
+// Validates a host's inputs of a recording. Error: one sentence.
 #pragma once
 
 #include "engine/core/result.h"

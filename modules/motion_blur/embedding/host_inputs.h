@@ -101,7 +101,7 @@ struct HostInputs {
     bool isOff = false;           ///< no blur: `output`, if there is one, gets a copy of `color`
     bool showsInputs = false;
     /// For tools: called within record() once the effect's passes are declared, unless `isOff`. It
-    /// may declare passes that read what the effect reads and makes, and must not throw.
+    /// may declare passes that read the effect's inputs and outputs, and must not throw.
     std::function<void(graph::Graph&, const MotionBlurInputs&, const MotionBlurOutputs&)> observe;
 };
 

@@ -12,7 +12,7 @@
 
 namespace shutter::motion_blur {
 
-/// What a frame's motion depends on besides HostMotion itself.
+/// Inputs of a frame's motion besides HostMotion itself.
 struct HostMotionFrame {
     math::uvec2 sizePx{1u};
     double rasterTime = 1.0;        ///< HostInputs::rasterTime
@@ -30,7 +30,7 @@ struct HostMotionFrame {
 /// One sentence that names the field which is wrong.
 [[nodiscard]] core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame);
 
-/// What a raster was drawn of: enough to find its surfaces again in the frame after.
+/// The contents of a raster: enough to find its surfaces in the next frame.
 struct HostRaster {
     /// A row that HostMotion::movers had.
     struct Mover {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host's motion may be: one sentence for each thing that it may not.
+// Validates a host's motion: one sentence per fault.
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_instants.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panels over a host's picture that show what the effect reads (HostInputs::showsInputs).
+// Panels over a host's picture that show the effect's inputs (HostInputs::showsInputs).
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -11,7 +11,7 @@
 
 namespace shutter::motion_blur {
 
-/// What the panels show. Pure.
+/// Layout and contents of the panels. Pure function.
 /// \param inputs as checkInputs() accepts them
 /// \param own of which the handles that are valid count
 [[nodiscard]] shader::OverlayTable

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a host is going to record, before it has images: for memory and for pipelines.
+// Description of a host's future recordings, before there are images: for memory estimates and
+// pipelines.
 #pragma once
 
 #include "modules/motion_blur/embedding/host_inputs.h"

@@ -25,7 +25,7 @@ class BlendedSurfaces {
     /// surfaceBytes is filled in
     void extract(const render::ExtractContext& context, extract::LayerLimits limits);
 
-    /// What the method must leave for them (MotionBlurInputs::surfaces).
+    /// Surfaces that the method must provide (MotionBlurInputs::surfaces).
     [[nodiscard]] std::vector<shader::InstantSurfaces> wanted(uint32_t slot) const;
 
     /// Draws the layer over the blurred picture of the frame that extract() was called for, and

@@ -72,7 +72,7 @@ class MotionBlurPlugin : public render::PostEffect {
     void extract(render::ExtractContext& context) override;
 
     void declare(render::PostContext& context) override;
-    /// Measures what the effect took and, under a budget, its level.
+    /// Measures the effect's time and, under a budget, its level.
     void finish(render::FinishedFrame& frame) override;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a checker finds wrong with a host's inputs, from totals and samples of its images. No
-// device: checker.h reads them back.
+// Checks of a host's inputs, from totals and samples of its images. Needs no device: checker.h
+// reads them back.
 #pragma once
 
 #include "modules/motion_blur/embedding/host_convention.h"
@@ -62,7 +62,7 @@ struct CheckFacts {
     int64_t frameNumber = 0;
     uint32_t view = 0;
     uint32_t number = 0; ///< of the view's recordings
-    /// What a host might have meant: raw depth the other way round.
+    /// Hypothesis: raw depth is reversed.
     bool flipsDepth = false;
 };
 
@@ -137,7 +137,7 @@ struct CheckedFrame {
 void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings);
 /// Whether nearly all depth lies at the near plane, as it does where its direction is wrong.
 [[nodiscard]] bool checkDepthDirection(const CheckedFrame& now, std::vector<Finding>& findings);
-/// Vectors against what the cameras imply.
+/// Compares vectors with the motion that the cameras imply.
 void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 void checkCameras(
@@ -154,7 +154,7 @@ void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>
 void checkMovers(const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 /// Where deforming movers' pixels go against their vectors.
 void checkDeformed(const CheckedFrame& now, std::vector<Finding>& findings);
-/// What no part above explains.
+/// Reports differences that no check above explains.
 void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings);
 void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 

@@ -30,7 +30,7 @@ struct DeformedSample {
     [[nodiscard]] dvec2 way() const { return dvec2(ends.z, ends.w) - dvec2(ends.x, ends.y); }
 };
 
-/// What a host might have meant.
+/// A hypothesis about the host's convention.
 struct DeformedGuess {
     const char* sentence;
     dvec2 (*way)(const DeformedSample& sample, const CheckFacts& facts);

@@ -119,7 +119,7 @@ findBefore(const CheckFacts& facts, const CheckPoint& point) {
     return std::pair(point.place - (facts.isNative ? dvec2(0.0) : motion), metres);
 }
 
-/// Compares ids of what the last frame shows as well, well within its entity in both.
+/// Compares ids of surfaces visible in both frames, well within its entity in both.
 void checkChangingIds(
     const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
 ) {

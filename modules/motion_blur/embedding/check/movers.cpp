@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Movers' matrices against what their pixels show: the motion vectors there or, without any, the
-// last frame's ids and depth. What a host may have got wrong is tried for all movers at once.
+// Checks movers' matrices against their pixels: the motion vectors there or, without any, the last
+// frame's ids and depth. Possible mistakes are tried for all movers at once.
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/check/last_frame.h"
 #include "modules/motion_blur/embedding/host_ways.h"
@@ -144,7 +144,7 @@ class MoverFrame {
         return see(mSpan.fromCamera, sample.world + (then - sample.world) * move.fromReach);
     }
 
-    /// Whether the sample's vector is what the move makes of it.
+    /// Whether the sample's vector agrees with the motion.
     [[nodiscard]] Match compareVector(const MoverSample& sample, const Move& move) const {
         const auto from = findBefore(sample, move);
         const auto to = see(mSpan.toCamera, dvec3(move.to * dvec4(sample.world, 1.0)));
@@ -155,7 +155,7 @@ class MoverFrame {
         return off <= kMoverTolerancePx + kMoverToleranceShare * own ? Match::Same : Match::Other;
     }
 
-    /// What of the samples' vectors is what the matrices make of them.
+    /// Compares the samples' vectors with the matrices.
     [[nodiscard]] std::vector<Match> compareVectors(const Change& change = {}) const {
         return compareEach(change, [this](const MoverSample& sample, const Move& move) {
             return compareVector(sample, move);

@@ -66,8 +66,8 @@ void checkOffset(
     CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
 );
 
-/// What the first two rows of both projections must be multiplied by for the least cost: both by
-/// the same, or one of them. Evaluates the cost about a hundred times.
+/// Factors of the first two rows of both projections that minimise the cost: both by the same, or
+/// one of them. Evaluates the cost about a hundred times.
 [[nodiscard]] math::dvec2 fitLens(const std::function<double(const math::dvec2&)>& cost);
 
 /// The facts with projections whose first two rows are multiplied.

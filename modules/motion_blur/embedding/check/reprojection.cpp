@@ -86,7 +86,8 @@ class Reprojection {
         return found;
     }
 
-    /// The guess explains what the host's own words do not, and hardly loses anything.
+    /// Accepts a hypothesis that explains samples which the declaration does not, and loses hardly
+    /// any.
     void consider(const Said& guess, const std::string& sentence) {
         const Found found = reproject(guess);
         size_t won = 0;

@@ -113,7 +113,7 @@ namespace {
 using math::dvec2;
 
 constexpr double kLeastOffPx = 1.5;
-constexpr double kLeastOffShare = 0.15; ///< of what the camera moves
+constexpr double kLeastOffShare = 0.15; ///< of the camera's motion
 
 /// What of the picture is static, and how far off its vectors are.
 struct Still {

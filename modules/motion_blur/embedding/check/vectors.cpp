@@ -21,7 +21,7 @@ namespace {
 
 using math::dvec2;
 
-/// What the motion along an axis must be multiplied by to be the camera's.
+/// Factor from the motion along an axis to the camera's.
 std::optional<double> fitScale(const std::vector<CheckPoint>& points, int axis) {
     std::vector<double> ratios;
     for (const CheckPoint& point : points)
@@ -53,7 +53,7 @@ std::string describeFactors(const dvec2& factors) {
     return hasX ? describe("x", factors.x) : describe("y", factors.y);
 }
 
-/// Collects what the host might have meant.
+/// Collects hypotheses.
 class Guesses {
   public:
     Guesses(const CheckedFrame& now, const CheckedFrame* last, Reading said)
