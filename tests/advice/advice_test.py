@@ -48,7 +48,7 @@ class Advice(unittest.TestCase):
         self.environment.pop("XDG_CONFIG_HOME", None)
 
     def hear(self, *arguments):
-        """Names of what was advised, with one message of each."""
+        """Names of the advice given, with one message each."""
         done = subprocess.run(
             [EXECUTABLE, *arguments, "--device", "llvmpipe", "--validate", "--advice"],
             cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=300)

@@ -64,7 +64,7 @@ def list_anchors(file):
 
 
 def check_link(root, file, target):
-    """What is wrong with a link, or None."""
+    """The fault of a link, or None."""
     if re.match(r"[a-z][a-z0-9+.-]*:", target):
         return None
     path, _, anchor = target.partition("#")

@@ -74,7 +74,7 @@ class FaultCase(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     def expect_sentence(self, result, *mentions, status=1):
-        """It failed, and said so in one line, in which all of `mentions` stand."""
+        """It failed with one line that contains all of `mentions`."""
         self.assertEqual(result.returncode, status, result.stderr)
         self.assertTrue(result.stderr.startswith("shutter: "), result.stderr)
         self.assertTrue(result.stderr.endswith("\n"), result.stderr)

@@ -32,7 +32,7 @@ class Files(FaultCase):
             (self.folder / name).write_bytes(OLDER)
 
     def draw_good(self, frame):
-        """The bytes of its files; of statistics, which tell of time, none."""
+        """The bytes of its files; of statistics, which contain times, none."""
         last = self.count_calls(frame)["submissions"]
         good = {name: (self.folder / name).read_bytes() for name in self.names - {"s.json"}}
         return last, good

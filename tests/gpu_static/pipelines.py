@@ -198,7 +198,7 @@ def find_faults(programs):
 
 
 def compare(found, pinned):
-    """Sentences on what is worse than its pin, or not pinned."""
+    """Sentences on figures that are worse than their pin, or not pinned."""
     for program in sorted(found.keys() | pinned.keys()):
         if program not in pinned:
             yield f"{program} is not pinned"

@@ -167,7 +167,7 @@ def read_png(file):
 
 
 def check_vignette(prefix, folder, picture):
-    """Sharp and blurred pictures of the same view by the program tell what the example did."""
+    """Sharp and blurred pictures of the same view by the program show what the example did."""
     def draw(method):
         file = folder / f"{method}.png"
         run([prefix / "bin/shutter", "render", prefix / "share/shutter/assets/vase.glb",

@@ -261,7 +261,7 @@ def gray_of(frame):
 
 
 def make_film(file, stripe):
-    """Frames that tell their number by their grey; a column of the film's own `stripe`."""
+    """Frames that encode their number as grey; a column of the film's own `stripe`."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for i in range(FRAMES):

@@ -105,7 +105,7 @@ class Flythrough(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
 
     def read(self, paths):
-        """What the reader says of each file: nothing, or what is wrong."""
+        """The reader's line for each file: empty, or the error."""
         run = subprocess.run(
             [os.environ["SHUTTER_CHECK_FLYTHROUGHS"], *paths],
             capture_output=True, text=True, check=True)

@@ -28,7 +28,7 @@ def run(*arguments):
 
 
 def place(path, value):
-    """Settings that tell this one field."""
+    """Settings with this one field."""
     for name in reversed(path):
         value = {name: value}
     return {"version": 1, **value}

@@ -69,7 +69,7 @@ def find_free_ports(count):
 
 
 def wait_for(what, condition):
-    """Waits until condition() is true. `what` says what was waited for where it never is."""
+    """Waits until condition() is true. `what` names the condition in the error."""
     end = time.monotonic() + LONGEST_WAIT_S
     while not condition():
         if time.monotonic() > end:

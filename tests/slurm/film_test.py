@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Films drawn by a real Slurm, on a cluster of two nodes that is set up on this machine: a node that
-dies in the middle changes no bit, and what fails is told. Exit status 77 where Slurm is missing."""
+dies in the middle changes no bit, and failures are reported. Exit status 77 where Slurm is missing."""
 
 import os
 import re
