@@ -94,7 +94,7 @@ GltfWriter buildMorphCase() {
          .translation = kYardCaseShot.pointAt({320.0f, 165.0f}, 2.8f),
          .mesh = writer.addMesh("ball", {&part, 1})}
     );
-    // From 0 to 1 in an exposure, half way at the case's time.
+    // From 0 to 1 in an exposure, halfway at the case's time.
     const float half = kSeconds / kExposureSeconds;
     const std::array times = {0.0f, 2.0f * kSeconds};
     const std::array weights = {0.5f - half, 0.5f + half};

@@ -44,7 +44,7 @@ void paintAlpha(Picture& picture, const AlphaPainter& painter);
 /// 1 within `halfWidth` of `centre`, else 0; paint() smooths the edge.
 [[nodiscard]] float band(float value, float centre, float halfWidth);
 
-/// 0 at whole numbers, 1 half way between, straight lines in between.
+/// 0 at whole numbers, 1 halfway between, straight lines in between.
 [[nodiscard]] float triangleWave(float value);
 
 /// Wood fibres along u, [0, 1]; tiles.

@@ -26,7 +26,7 @@ constexpr float kVaseDepth = 2.2f;      ///< metres; at least 0.5 in front of th
 constexpr vec2 kVaseMotionPx{38.0f, 14.0f};
 
 void addVase(GltfWriter& writer) {
-    // Radius and height from the foot; the pivot is half way up.
+    // Radius and height from the foot; the pivot is halfway up.
     constexpr float kHalfHeight = 0.26f;
     constexpr std::array<vec2, 10> kOutside = {
         vec2(0.066f, 0.000f),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame's display-encoded picture, kept for a later frame to show: the other half of a split
-// screen.
+// Stores a frame's display-encoded picture for a later frame: the other half of a split screen.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -10,7 +9,7 @@
 
 namespace shutter::app {
 
-/// The last effect of the frame whose picture is to be kept.
+/// Must be the last effect of the frame whose picture is stored.
 class KeptPicture : public render::PostEffect {
   public:
     explicit KeptPicture(gpu::Device& device) : mDevice(device) {}

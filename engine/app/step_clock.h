@@ -6,15 +6,15 @@
 
 namespace shutter::app {
 
-/// Longest stretch of wall time that one frame makes up for: after a hitch the game goes on, not
-/// faster.
+/// Maximum wall time that one frame simulates: after a hitch the game continues at normal speed.
 inline constexpr double kMaxCatchUpSeconds = 0.25;
 
 /// What one frame is to do.
 struct FrameTime {
     uint32_t steps = 0;    ///< fixed steps to simulate before it is drawn
     double seconds = 0.0;  ///< game time to draw, not after the simulated
-    double duration = 0.0; ///< game time since the frame before; the last one's while it is paused
+    double duration = 0.0; ///< game time since the previous frame; the last one's while it is
+                           ///< paused
 };
 
 class StepClock {

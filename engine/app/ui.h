@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dear ImGui on this engine's window: input goes in, an overlay comes out.
+// Dear ImGui on this engine's window: converts input, draws an overlay.
 //
 // Input comes from InputState, so that scripts drive widgets as players do, and drawing is our own:
 // the overlay is drawn within dynamic rendering, which the Vulkan backend of the oldest version

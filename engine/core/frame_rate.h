@@ -9,7 +9,7 @@
 
 namespace shutter::core {
 
-/// Frames a second: a number, or a fraction such as 24000/1001, which no number is.
+/// Frames per second: a number, or an exact fraction such as 24000/1001.
 struct FrameRate {
     /// \param top above 0 and finite; whole where it is divided
     FrameRate(double top = 24.0, double bottom = 1.0) : numerator(top), denominator(bottom) {}
@@ -19,7 +19,7 @@ struct FrameRate {
 
     [[nodiscard]] double perSecond() const { return numerator / denominator; }
 
-    /// How long so many frames take, seconds.
+    /// Duration of so many frames, seconds.
     [[nodiscard]] double secondsOf(double frames) const { return frames * denominator / numerator; }
 
     friend bool operator==(const FrameRate&, const FrameRate&) = default;

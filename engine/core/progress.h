@@ -31,7 +31,7 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// More steps are done.
+    /// Advances by completed steps.
     void advance(uint64_t steps = 1);
 
   private:

@@ -19,7 +19,7 @@ struct OutputPlace {
                            ///< as it is, not replaced
 };
 
-/// Follows the links of a file that is there or is to be made.
+/// Follows the links of an existing or future file.
 /// Error: links that lead in a circle; a folder.
 [[nodiscard]] Result<OutputPlace> findOutputPlace(const std::filesystem::path& path);
 

@@ -27,8 +27,8 @@ struct Changes {
     bool all = false;
     /// A component was added to an entity that lacked it, or removed.
     bool structure = false;
-    /// Unless `all`: whose component was added, removed, or given out to be written. May hold one
-    /// more than once, and entities that are no longer alive. Until the next change.
+    /// Unless `all`: entities whose component was added, removed, or accessed for writing. May
+    /// contain duplicates and entities that are no longer alive. Valid until the next change.
     std::span<const Entity> entities;
 };
 
@@ -38,7 +38,7 @@ struct Changes {
 /// Private to SparseSetBase.
 class ChangeLog {
   public:
-    /// Entries that are remembered at least; twice as many are kept at most.
+    /// Minimum number of stored entries; the maximum is twice this.
     static constexpr size_t kRemembered = 1024;
 
     void note(Entity entity) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Storage of one component type: values lie densely in the order they were added, a sparse array
 // finds them by entity index. Adding, removing and finding are O(1); iteration touches no holes.
-// Whatever may change a value is noted in the storage's log of changes.
+// Every access that may change a value is recorded in the storage's log of changes.
 #pragma once
 
 #include "engine/ecs/change_log.h"

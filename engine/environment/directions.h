@@ -20,7 +20,7 @@ namespace shutter::environment {
 /// Solid angle of a texel in row `row` of `height` rows of `width` texels, steradians.
 [[nodiscard]] double texelSolidAngle(uint32_t row, uint32_t width, uint32_t height);
 
-/// Colour between the four nearest texels; u goes round, v ends at the poles. At least three
+/// Colour between the four nearest texels; u wraps, v is clamped at the poles. At least three
 /// channels, of which the first three count.
 [[nodiscard]] math::vec3 samplePlace(const image::Image& picture, math::dvec2 uv);
 [[nodiscard]] math::vec3 sampleDirection(const image::Image& picture, math::dvec3 direction);

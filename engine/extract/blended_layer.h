@@ -58,8 +58,8 @@ struct BlendedLayer {
 
 struct LayerLimits {
     uint32_t instants = 15; ///< maximum that are drawn and looked up
-    /// Above 1: so many at least, each with its sample elsewhere in the pixel, for a picture whose
-    /// edges are anti-aliased.
+    /// Above 1: minimum number of instants, each with another sample place in the pixel, for a
+    /// picture with anti-aliased edges.
     uint32_t leastInstants = 1;
     bool findsInstants = false; ///< the method can look up depths and colours of instants
     uint64_t surfaceBytes = 0;  ///< most memory for them

@@ -52,12 +52,12 @@ struct DeformationTimes {
 
 [[nodiscard]] bool isSame(const scene::Deformation& a, const scene::Deformation& b);
 
-/// Most that two poses of one shape differ by rounding alone, metres: what single precision, in
-/// which vertices are kept, does not hold.
+/// Maximum difference of two poses of one shape due to rounding, metres: the resolution of single
+/// precision, in which vertices are stored.
 /// \param bounds of the shape, object space
 [[nodiscard]] double measureRounding(const math::Bounds& bounds);
 
-/// No vertex is farther from one place to the other than `tolerance`, metres.
+/// Whether no vertex moves by more than `tolerance`, metres.
 [[nodiscard]] bool isNear(
     const scene::Deformation& a,
     const scene::Deformation& b,

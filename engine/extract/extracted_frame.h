@@ -88,7 +88,7 @@ struct ViewRequest {
     bool usesLens = false;
     /// Where in the lens the raster is taken from, [0, 1)^2 (aperturePoint()); nothing: its middle.
     std::optional<math::dvec2> lensPlace{};
-    math::vec3 background{0.0f}; ///< linear RGB where nothing is
+    math::vec3 background{0.0f}; ///< linear RGB for the background
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
     /// Added to lodBias in the raster for entities without motion, if the camera does not move.
@@ -173,7 +173,8 @@ struct ExtractedFrame {
     /// moves; except for EntityRow::instanceMask, which rows that are static in the world have
     /// only if the camera moves.
     uint64_t stillRevision = 0;
-    /// With Jittered::Static: whether the camera is where it was one frame ago, and stays there.
+    /// With Jittered::Static: whether the camera has not moved since the previous frame and does
+    /// not move.
     bool isCameraAtRest = false;
     /// One per own row, with Jittered::Static: whether the entity is at rest and does not deform.
     /// Such entities are jittered unless the camera moves.

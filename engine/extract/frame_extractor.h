@@ -26,7 +26,7 @@ class FrameExtractor {
     /// The frame equals extractFrame()'s, except that rows that were written to still count as
     /// moving ones, and that the table of motions may be in another order. It lives until the next
     /// call and may be written to: rows that are appended are dropped then.
-    /// \param layout stays as it is between calls
+    /// \param layout must not change between calls
     /// Error: as extractFrame's.
     [[nodiscard]] core::Result<ExtractedFrame*>
     update(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
@@ -43,7 +43,7 @@ class FrameExtractor {
         float distance = 0.0f;            ///< as PlacedEntity's
         bool evolves = false;             ///< its pose differs between the instants
         bool moving = false;              ///< in ExtractedFrame::movingRows, or joins them
-        bool written = false;             ///< to, since the frame before
+        bool written = false;             ///< to, since the previous frame
         bool visible = false;             ///< in the picture
         bool movesInView = false;
         bool mirrored = false; ///< the transform or the skeleton turns the winding round

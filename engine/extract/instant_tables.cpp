@@ -174,7 +174,7 @@ class Builder {
                 if (!shape.changes || !middle.isRest())
                     continue;
                 middle = mMotion.deformationAt(mFrame.entityHandles[shape.row], kWayTimes[1]);
-                // A shape that is nowhere half way goes straight.
+                // A shape that is nowhere halfway goes straight.
                 if (!isFinite(middle, *shape.reach))
                     middle = shape.open;
             }

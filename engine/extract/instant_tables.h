@@ -22,8 +22,8 @@ struct InstantTables : math::InstantLayers {
     std::vector<ShapeWay> rasterWays;
     std::vector<ShapeWay> secondWays;
     std::vector<ShapeWay> lastWays;
-    /// By index into ExtractedFrame::deformed: the shape half way through the exposure. Empty where
-    /// nothing needs it, and of those that do not change.
+    /// By index into ExtractedFrame::deformed: the shape halfway through the exposure. Empty if not
+    /// needed; also for shapes that do not change.
     std::vector<scene::Deformation> middles;
 };
 
@@ -36,8 +36,8 @@ struct InstantFrame {
 
 /// Computes the tables. Instants are the middles of equal shares of the light, by the shutter's
 /// response.
-/// \param view its jitter is that of the colours that the layers hold: none, where an effect has
-/// taken the raster's out of them
+/// \param view its jitter is that of the layers' colours: none if an effect has removed the
+/// raster's
 /// \param motion of the view's exposure
 /// \param instantCount above 0; with ViewRequest::usesLens spreadLensPairs() has as many pairs, in
 /// that order

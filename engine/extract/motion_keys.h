@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A matrix's way through the exposure, for rays that each have their own time: keys at uniform
-// shutter times between which shaders interpolate linearly. As many as it takes for the surface to
-// be nowhere visibly off its true way, however it moves.
+// The motion of a matrix over the exposure, for time-sampled rays: keys at uniform shutter times
+// between which shaders interpolate linearly. Enough of them for the error to be invisible for any
+// motion.
 #pragma once
 
 #include "engine/math/bounds.h"

@@ -17,8 +17,8 @@ namespace shutter::extract {
 
 /// Over which time particles are shown.
 enum class ParticleTime : uint8_t {
-    Instant,  ///< those that live at the raster instant, where they are then
-    Exposure, ///< all that live in the exposure, on their way
+    Instant,  ///< those alive at the raster instant, at their place then
+    Exposure, ///< all that live during the exposure, with their motion
 };
 
 struct ParticleTables {

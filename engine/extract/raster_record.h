@@ -98,7 +98,7 @@ struct RasterRecord {
     const RasterRecord& last
 );
 
-/// The view of the frame before, for a raster that isOfFrameBefore(); nothing where that frame
+/// The view of the previous frame, for a raster that isOfFrameBefore(); nothing where that frame
 /// shows something else, or no time has passed since. \param motion of the view's exposure
 [[nodiscard]] std::optional<ViewRequest> makeViewBefore(
     const scene::World& world, const ViewRequest& view, const scene::ExposureMotion& motion

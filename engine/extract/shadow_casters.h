@@ -54,7 +54,7 @@ struct CasterPath {
     const ShadowCaster& caster, const FrameView& view, const ExtractedFrame& frame, uint32_t count
 );
 
-/// A light as casters see it: the way to it (w 0, unit) or its place (w 1).
+/// A light in casters' space: the direction to it (w 0, unit) or its place (w 1).
 using LightPlace = math::dvec4;
 
 /// The same as a caster sees it that moved.

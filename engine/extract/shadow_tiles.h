@@ -28,7 +28,7 @@ struct PixelBox {
     math::dvec2 max{0.0};
 };
 
-/// Holds every point of the picture from which the way to the light may meet the caster.
+/// Contains every point of the picture from which the ray to the light may hit the caster.
 /// \param caster over the exposure
 /// \return nothing: it may be anywhere
 [[nodiscard]] std::optional<PixelBox>

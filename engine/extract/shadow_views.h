@@ -45,9 +45,9 @@ inline constexpr uint32_t kMaxCascades = 4;
 [[nodiscard]] math::dmat3 makeLightAxes(const math::dvec3& toLight);
 
 /// Cascades of a directional light, finest first: squares across the light, each larger than the
-/// one before; the last, or one before it that is large enough for the whole scene, has all of it.
-/// A cascade keeps its place while the camera moves by less than an eighth of its width, and moves
-/// by whole texels: edges of still shadows do not crawl, and maps can be kept.
+/// one before; the last one, or an earlier one that is large enough, covers the whole scene. A
+/// cascade does not move while the camera moves by less than an eighth of its width, and moves by
+/// whole texels: edges of static shadows do not crawl, and maps can be cached.
 /// \param toLight unit
 /// \param scene box around all casters and receivers, world space, not empty
 /// \param farthest distance from the camera, metres, above 0

@@ -25,7 +25,7 @@ struct ShapeWay {
     shader::ShapeWayRow maps{};
 };
 
-/// Picture spaces (layer_tables.h) from the world at shutter open, half way and close.
+/// Picture spaces (layer_tables.h) from the world at shutter open, halfway and close.
 using ExposurePictures = std::array<math::dmat4, 3>;
 
 /// Where an object is at the same times.

@@ -60,8 +60,8 @@ struct Flythrough {
 /// \param name what errors call the text
 [[nodiscard]] core::Result<Flythrough> parseFlythrough(std::string_view text, std::string name);
 
-/// Writes a file that readFlythrough reads back bit by bit. Error: the flythrough is not valid or
-/// the file cannot be written; an earlier file of that name is then kept.
+/// Writes a file that readFlythrough reads back bit for bit. Error: the flythrough is not valid or
+/// the file cannot be written; an earlier file of that name is then preserved.
 [[nodiscard]] core::Status
 writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Slow and fast motion: how fast a flythrough's film goes through the scene's time.
+// Slow and fast motion: the rate of scene time over film time in a flythrough.
 #pragma once
 
 #include "engine/flythrough/flythrough.h"
@@ -9,7 +9,7 @@
 
 namespace shutter::flythrough {
 
-/// Film time and scene time, each in seconds; both are 0 at once. Between two keys that have a time
+/// Film time and scene time, each in seconds; both start at 0. Between two keys that have a time
 /// scale, the scale changes evenly over the scene's time; before the first such key and after the
 /// last it stays the same. Without any such key it is 1, and both times are the same, to the bit.
 class TimeRamp {

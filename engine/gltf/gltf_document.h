@@ -63,7 +63,7 @@ struct GltfPlace {
     io::Reach reach = io::Reach::Folder;
 };
 
-/// The bytes of buffers and images, wherever the file keeps them.
+/// The bytes of buffers and images, from any location.
 class GltfResources {
   public:
     /// Moves the arrays `buffers` and `images` out of `root` and reads every buffer. `bin` is the

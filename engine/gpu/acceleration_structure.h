@@ -60,8 +60,8 @@ class AccelerationStructure {
     VkDeviceAddress mAddress = 0;
 };
 
-/// Whether structures that will not change are copied to where they take no more memory than they
-/// need: about half of the size for the build, according to NVIDIA and AMD.
+/// Whether static structures are compacted: about half of the size for the build, according to
+/// NVIDIA and AMD.
 enum class Compaction : uint8_t { None, Done };
 
 /// One BLAS a mesh, in few buffers, built together and waited for: load time only. A mesh whose
@@ -95,12 +95,12 @@ struct BoxGeometry {
     float max[3];
 };
 
-/// A BLAS of boxes whose contents shaders decide about, rebuilt whenever they moved. A box's index
-/// is its primitive index. Keeps its buffers and grows them.
+/// A BLAS of boxes with shader-defined intersection, rebuilt when they moved. A box's index is its
+/// primitive index. Reuses its buffers and grows them.
 class BoxBlas {
   public:
     /// Writes the boxes, at least one, and (re)creates buffers; call before record(). The GPU must
-    /// be done with the last build's boxes.
+    /// have finished with the last build's boxes.
     void prepare(Device& device, std::span<const BoxGeometry> boxes);
     /// Records the build; the caller places barriers.
     void record(const Device& device, VkCommandBuffer commands);
@@ -115,11 +115,11 @@ class BoxBlas {
     uint32_t mCount = 0;
 };
 
-/// A TLAS that is rebuilt whenever its instances moved. Keeps its buffers and grows them.
+/// A TLAS that is rebuilt when its instances moved. Reuses its buffers and grows them.
 class Tlas {
   public:
-    /// Writes the instances and (re)creates buffers; call before record(). The GPU must be done
-    /// with the last build's instances (one Tlas a frame in flight).
+    /// Writes the instances and (re)creates buffers; call before record(). The GPU must have
+    /// finished with the last build's instances (one Tlas per frame in flight).
     void prepare(Device& device, std::span<const Instance> instances);
     /// Records the build. The caller places barriers (build reads and writes
     /// ACCELERATION_STRUCTURE_BUILD).

@@ -37,7 +37,7 @@ struct DeviceOptions {
     bool wantsAdvice = false; ///< where `validate`: best practices too, which no count includes
     RayTier bestTier =
         RayTier::RayQuery; ///< hides the tiers above, so that lower ones can be tested
-    /// Folder of the pipeline cache on disk; empty: none is kept.
+    /// Folder of the pipeline cache on disk; empty: none.
     std::filesystem::path cacheFolder;
     PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
     /// Maximum number of unused pipelines that are cached for reuse (kept_pipelines.h); 0: none.
@@ -129,8 +129,8 @@ struct LivingObjects {
 class Device {
   public:
     [[nodiscard]] static core::Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
-    /// Around a host's device. Destroys nothing of the host's and waits for nothing: when it goes,
-    /// the GPU must be done with all that was handed over.
+    /// Around a host's device. Destroys no objects of the host and never waits: before its
+    /// destruction the GPU must have finished all submitted work.
     [[nodiscard]] static core::Result<std::unique_ptr<Device>> adopt(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
@@ -205,7 +205,7 @@ class Device {
 
     /// One that was given up under this key; on any thread. See kept_pipelines.h.
     [[nodiscard]] std::optional<PipelineObjects> takePipeline(const std::string& key);
-    /// Keeps it or, where there is no room, destroys the oldest once it is not in use.
+    /// Caches it or, without room, destroys the oldest once it is not in use.
     void giveUpPipeline(std::string key, const PipelineObjects& objects);
 
     /// DeviceOptions::validate.
@@ -226,8 +226,8 @@ class Device {
     void countAllocation() { ++mAllocationCount; }
 
     /// Submits batches, one command buffer each, which start in this order.
-    /// \return the timeline value that is reached when all are done
-    /// Not for adopted devices (CHECKed).
+    /// \return the timeline value that is reached when all are complete. Not for adopted devices
+    /// (CHECKed).
     uint64_t
     submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores = {});
     /// Adopted devices wait for nothing: there the value must be complete (CHECKed).

@@ -32,7 +32,7 @@ struct DeviceInfo {
     bool tracesIndirect =
         false;                ///< launches of ray-tracing pipelines may read their size from memory
     std::string missing;      ///< why the engine cannot use it, empty where it can
-    uint32_t queueFamily = 0; ///< that the engine uses, where nothing is missing
+    uint32_t queueFamily = 0; ///< used by the engine, if complete
     uint32_t timestampBits = 0;  ///< of that family's timestamps: how many count
     bool isPortable = false;     ///< it brings Vulkan to another interface (portability subset)
     bool hasRobustness2 = false; ///< accesses past the end of a buffer or image can read as 0

@@ -66,8 +66,8 @@ class Frame {
     /// start when all earlier submissions are complete: frames in flight overlap with the CPU, not
     /// with one another, and may share resources that only the GPU writes.
     void begin();
-    /// One for a host: starts recording into `commands`, which are being recorded. The GPU must be
-    /// done with this frame's last use.
+    /// One for a host: starts recording into `commands`, which are being recorded. The GPU must
+    /// have finished with this frame's last use.
     void beginIn(VkCommandBuffer commands);
     /// Starts a second batch, which alone waits for the semaphore of the submission. At most once
     /// per frame; not between beginSpan() and endSpan() nor while rendering. Afterwards commands()

@@ -28,15 +28,15 @@ struct PipelineObjects {
 /// pipelines may be made on several threads.
 class KeptPipelines {
   public:
-    /// \param most how many are kept; 0: none
+    /// \param most maximum number; 0: none
     explicit KeptPipelines(size_t most) : mMost(most) {}
 
     [[nodiscard]] size_t most() const { return mMost; }
 
-    /// Hands over one that was kept under this key (pipeline_key.h).
+    /// Returns and removes a cached pipeline of this key (pipeline_key.h).
     [[nodiscard]] std::optional<PipelineObjects> take(const std::string& key);
-    /// \return the one that is not kept any more, if any: the oldest, for which there is no room,
-    /// or the given one, where its making failed half-way
+    /// \return the pipeline to destroy, if any: the oldest if there is no room, or the given one if
+    /// it is incomplete
     [[nodiscard]] std::optional<PipelineObjects> keep(std::string key, PipelineObjects objects);
     /// Hands over all.
     [[nodiscard]] std::vector<PipelineObjects> takeAll();

@@ -50,10 +50,10 @@ enum class Blend : uint8_t {
     /// All attachments, nearest first: premultiplied colours are added by the transmittance
     /// accumulated in alpha, and alpha is multiplied by the surface's transmittance.
     Under,
-    Premultiplied, ///< over, with premultiplied colours; what alpha was stays; attachment 0 alone
+    Premultiplied, ///< over, with premultiplied colours; alpha does not change; attachment 0 only
     /// The same, and alpha is multiplied by the transmittance.
     PremultipliedLayer,
-    AlphaOnly, ///< alpha of all attachments is replaced, colours stay
+    AlphaOnly, ///< alpha of all attachments is replaced, colours do not change
 };
 
 struct GraphicsPipelineDesc {
@@ -103,8 +103,8 @@ class Pipeline {
     }
 
   private:
-    /// Holds nothing yet. The other constructors delegate to it, so that whatever they made is
-    /// destroyed where they fail.
+    /// Makes an empty object. The other constructors delegate to it, so that members are destroyed
+    /// if they throw.
     Pipeline(
         Device& device, VkPipelineBindPoint bindPoint, VkShaderStageFlags stages, std::string name
     )
@@ -121,7 +121,7 @@ class Pipeline {
 
     Device* mDevice = nullptr;
     PipelineObjects mObjects;
-    std::string mKey; ///< under which the device may keep it
+    std::string mKey; ///< under which the device may cache it
     VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags mStages = 0;
     size_t mBindingCount = 0;

@@ -26,7 +26,7 @@ struct PipelineCacheOwner {
     std::array<uint8_t, VK_UUID_SIZE> uuid{}; ///< VkPhysicalDeviceProperties::pipelineCacheUUID
 };
 
-/// The contents of a file that keeps `blob`.
+/// The contents of a cache file with `blob`.
 [[nodiscard]] std::vector<uint8_t> packPipelineCache(std::span<const uint8_t> blob);
 
 /// The blob in the contents of a file; nothing where another version of this program, or another

@@ -7,9 +7,8 @@
 
 namespace shutter::gpu {
 
-/// All that a pipeline is made of, as bytes: equal for two descriptions exactly where one pipeline
-/// serves both. Scene layouts count by handle,
-/// so they must live as long as the pipelines are kept.
+/// A pipeline's description as bytes: equal exactly if one pipeline serves both descriptions. Scene
+/// layouts are compared by handle, so they must outlive the cached pipelines.
 [[nodiscard]] std::string makePipelineKey(const ComputePipelineDesc& desc);
 [[nodiscard]] std::string makePipelineKey(const GraphicsPipelineDesc& desc);
 [[nodiscard]] std::string makePipelineKey(const RayPipelineDesc& desc);

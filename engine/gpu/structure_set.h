@@ -24,7 +24,7 @@ struct BlasDesc {
 
 enum class BuildAction : uint8_t {
     Keep,  ///< the last build
-    Refit, ///< vertices moved, nothing else: the tree keeps its form
+    Refit, ///< only vertices moved: the tree is refitted
     Build,
 };
 
@@ -39,8 +39,8 @@ class StructureSet {
     /// \param refits allow BuildAction::Refit \return true: count and sizes are as before, so the
     /// last builds are still valid
     bool prepareBlas(Device& device, std::vector<BlasDesc> levels, bool refits = false);
-    /// Allocates TLASes of one instance each and writes the instances. The GPU must be done with
-    /// the last ones.
+    /// Allocates TLASes of one instance each and writes the instances. The GPU must have finished
+    /// with the last ones.
     void prepareTlas(Device& device, std::span<const Instance> instances);
     /// Records the builds; the caller places barriers.
     /// \param actions one per structure

@@ -28,7 +28,7 @@ struct UploadPart {
 };
 
 /// The parts of a transfer of `total` bytes: of whole units each, as many as kStagingBytes holds
-/// and at least one. \param unit bytes that stay together (a row of a picture); divides `total`
+/// and at least one. \param unit bytes that are not split (a row of a picture); divides `total`
 [[nodiscard]] std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit);
 
 /// Fills a device buffer through staging memory.

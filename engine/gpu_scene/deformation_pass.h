@@ -25,8 +25,8 @@ class DeformationPass {
   public:
     explicit DeformationPass(gpu::Device& device) : mDevice(device), mDeformer(device) {}
 
-    /// Declares the pass; none for a frame without deformed meshes. The GPU must be done with the
-    /// last frame's.
+    /// Declares the pass; none for a frame without deformed meshes. The GPU must have finished with
+    /// the last frame's.
     [[nodiscard]] DeformedMeshes
     declare(graph::Graph& graph, const extract::ExtractedFrame& frame, const GpuScene& scene);
 
@@ -39,7 +39,7 @@ class DeformationPass {
 
     gpu::Device& mDevice;
     Deformer mDeformer;
-    gpu::Buffer mShapes; ///< Vertex[] of all, and behind them vec4[] of those that change
+    gpu::Buffer mShapes; ///< Vertex[] of all, followed by vec4[] of those that change
     gpu::Buffer mPoses;
     gpu::Buffer mJobs;
 };

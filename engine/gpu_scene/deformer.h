@@ -48,7 +48,7 @@ class PoseTable {
     VkDeviceAddress mWavesAt = 0;
 };
 
-/// Jobs that one dispatch works off, however many they are.
+/// Any number of jobs for one dispatch.
 class DeformJobs {
   public:
     /// \param instantCount one behind the other, from the job's first
@@ -62,7 +62,7 @@ class DeformJobs {
     [[nodiscard]] const shader::DeformBatch& batch() const { return mBatch; }
 
   private:
-    std::vector<shader::DeformJob> mJobs; ///< those that have something to do
+    std::vector<shader::DeformJob> mJobs; ///< non-empty jobs
     shader::DeformBatch mBatch{};
 };
 

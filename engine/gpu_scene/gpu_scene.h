@@ -54,7 +54,8 @@ class GpuScene {
     /// shader, which passes or takes them.
     void buildAllBlas();
 
-    /// Gives back every BLAS and TLAS of a mesh; whatever refers to them has to be gone first.
+    /// Frees the BLASes and per-mesh TLASes of all meshes; objects that refer to them must be
+    /// destroyed first.
     void releaseBlas();
 
     /// Null (false) for a mesh without triangles that rays can meet.
@@ -66,7 +67,7 @@ class GpuScene {
     [[nodiscard]] gpu::Instance describeInstance(uint32_t mesh) const;
 
     /// Builds, where it is not yet there, each mesh's own TLAS: one instance, in object space.
-    /// \param meshes that have a blas(); may hold one more than once
+    /// \param meshes that have a blas(); may contain duplicates
     void buildMeshScenes(std::span<const uint32_t> meshes);
 
     /// Null (false) until built.

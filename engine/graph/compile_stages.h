@@ -13,7 +13,7 @@ namespace shutter::graph {
 
 // access.cpp: the table of accesses.
 
-/// What Vulkan requires for one way to access a resource.
+/// Vulkan's stages, access and layout for an access.
 struct AccessScope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 reads = 0;
@@ -29,8 +29,8 @@ struct AccessScope {
 [[nodiscard]] VkImageUsageFlags imageUsageOf(Access access);
 [[nodiscard]] VkBufferUsageFlags bufferUsageOf(Access access);
 
-// order.cpp: which pass produces and which read each version, which passes are kept, in which order
-// they run.
+// order.cpp: which pass produces and which read each version, which passes are not culled, and
+// their order.
 
 /// The passes behind each (resource, version).
 class VersionTable {
@@ -55,8 +55,8 @@ struct Culling {
     std::vector<CulledPass> culled;
 };
 
-/// A pass is kept if it has a side effect, writes an imported resource or produces a version that
-/// an output or a kept pass needs.
+/// A pass is not culled if it has a side effect, writes an imported resource or produces a version
+/// that an output or another such pass needs.
 [[nodiscard]] Culling cull(const Graph& graph, const VersionTable& versions);
 
 /// Orders the passes that were not culled: each after the passes it depends on and before those

@@ -85,7 +85,7 @@ struct ResourceRecord {
     VkBuffer importedBuffer = VK_NULL_HANDLE;
     /// Imported images: layout before and after the frame. UNDEFINED before: contents are dropped.
     VkImageLayout initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED; ///< UNDEFINED: whatever is left
+    VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED; ///< UNDEFINED: any layout
     /// Users of an imported image outside of the frame; nothing: any command may be one.
     std::optional<OutsideUse> before;
     std::optional<OutsideUse> after;
@@ -115,7 +115,7 @@ class PassBuilder {
     /// Attachments in the order of the calls.
     [[nodiscard]] ImageHandle colorTarget(ImageHandle image, std::optional<ClearColor> clear);
     [[nodiscard]] ImageHandle depthTarget(ImageHandle image, std::optional<float> clear);
-    /// The pass is wanted for its own sake (writes to memory the graph does not know).
+    /// The pass is never culled (it writes to memory unknown to the graph).
     void sideEffect();
     /// Work before the pass does not wait for the semaphore of the frame's submission: for what
     /// draws on an image that the window system lends. One pass a frame, after the others.
@@ -130,7 +130,7 @@ class PassBuilder {
     PassRecord& mPass;
 };
 
-/// One frame's passes and resources. Mistakes in declaring are kept and reported by compile().
+/// One frame's passes and resources. Mistakes in declaring are stored and reported by compile().
 class Graph {
   public:
     Graph();
@@ -168,7 +168,8 @@ class Graph {
         return *data;
     }
 
-    /// Contents are wanted after the frame (readback, swapchain, debug view): keeps its writers.
+    /// Contents are used after the frame (readback, swapchain, debug view): its writers are not
+    /// culled.
     void markOutput(ImageHandle image);
     void markOutput(BufferHandle buffer);
 

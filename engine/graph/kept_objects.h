@@ -25,7 +25,7 @@ template <class Key, class Object> class KeptObjects {
         return nullptr;
     }
 
-    /// Keeps an object, which this round uses.
+    /// Adds an object, which this round uses.
     Object* add(const Key& key, Object object) {
         mEntries.push_back({key, std::move(object), mRound});
         return &mEntries.back().object;
@@ -53,7 +53,7 @@ template <class Key, class Object> class KeptObjects {
 
     void clear() { mEntries.clear(); }
 
-    /// The sum of the costs of all that is kept, used or idle.
+    /// The sum of the costs of all objects, used or idle.
     template <class Cost> [[nodiscard]] uint64_t sum(Cost cost) const {
         uint64_t total = 0;
         for (const Entry& entry : mEntries)

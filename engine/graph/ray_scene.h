@@ -24,7 +24,7 @@ struct RayScene {
     bool hasBlended = false;                          ///< blended surfaces may be in the picture
 };
 
-/// The scene for rays that each have their own time in the exposure.
+/// The scene for time-sampled rays in the exposure.
 struct TimedRays {
     BufferHandle tlasBuffer;  ///< read with Access::AccelerationRead
     BufferHandle boxesBuffer; ///< read with Access::AccelerationRead; invalid: nothing moves

@@ -27,8 +27,8 @@ class TransientPool {
     /// unlikely to be needed soon and may be far larger. Must be called before realize().
     void keepFor(uint32_t width, uint32_t height);
 
-    /// Makes what `plan` needs. After it, image() and buffer() answer for its resources. The GPU
-    /// must be done with the frame this pool was used for before. Throws gpu::DeviceError.
+    /// Creates the resources of `plan`. Afterwards image() and buffer() return them. The GPU must
+    /// have finished with the frame this pool was used for before. Throws gpu::DeviceError.
     void realize(const Graph& graph, const Plan& plan);
     [[nodiscard]] const gpu::Image* image(uint32_t resource) const;   ///< null: not a transient
     [[nodiscard]] const gpu::Buffer* buffer(uint32_t resource) const; ///< null: not a transient

@@ -21,7 +21,7 @@ struct ImageHandle {
     bool operator==(const ImageHandle&) const = default;
 };
 
-/// The same for a buffer (or an acceleration structure, which is one as far as order goes).
+/// The same for a buffer (or an acceleration structure, which is ordered like one).
 struct BufferHandle {
     uint32_t resource = UINT32_MAX;
     uint32_t version = 0;
@@ -51,7 +51,7 @@ struct TransientBufferDesc {
 
 /// How an imported image is used before or after the frame, for the barriers at both ends.
 struct OutsideUse {
-    /// Before: UNDEFINED drops the contents. After: UNDEFINED, whatever is left.
+    /// Before: UNDEFINED discards the contents. After: UNDEFINED, any layout.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     VkAccessFlags2 access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;

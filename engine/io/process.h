@@ -21,7 +21,7 @@ struct ProcessResult {
 [[nodiscard]] std::optional<std::filesystem::path> findProgram(const std::string& name);
 
 /// Runs `program` with nothing on its stdin and waits for its end. It is killed if this thread ends
-/// first, however that comes about.
+/// first for any reason.
 /// \param folder where it runs
 /// Error: it cannot be started.
 [[nodiscard]] core::Result<ProcessResult> runProcess(

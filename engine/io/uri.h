@@ -20,7 +20,7 @@ namespace shutter::io {
 
 /// Which files a file may name.
 enum class Reach : uint8_t {
-    Folder,   ///< those in its own folder and below
+    Folder,   ///< those in the file's folder and below
     Anywhere, ///< all files, at the reader's request
 };
 

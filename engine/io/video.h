@@ -23,8 +23,8 @@ struct VideoFormat {
     VideoCodec codec = VideoCodec::H264;
     uint32_t bitDepth = 8; ///< bits of a channel, 8 or 10
     std::string timecode;  ///< of the first frame, "HH:MM:SS:FF"; empty: the film carries none
-    /// Vp9: kilobits of a second that the film keeps near, twice as many at most where frames are
-    /// few; 0: as many as its quality takes.
+    /// Vp9: target of kilobits per second, at most twice as many for short films; 0: chosen by
+    /// quality.
     uint32_t kilobits = 0;
 };
 

@@ -31,7 +31,7 @@ class RefitTurns {
     }
 
   private:
-    uint32_t mRefits = 0; ///< since it was built from nothing, or taken to have been
+    uint32_t mRefits = 0; ///< since the last rebuild, real or assumed
 };
 
 /// One BLAS per entity of ExtractedFrame::deformed. Unchanged shapes are reused; changed shapes are
@@ -40,7 +40,7 @@ class DeformedBlas {
   public:
     explicit DeformedBlas(gpu::Device& device) : mDevice(device) {}
 
-    /// Declares the builds. The GPU must be done with the last frame's.
+    /// Declares the builds. The GPU must have finished with the last frame's.
     /// \return read it with Access::AccelerationRead; invalid: nothing is deformed
     [[nodiscard]] graph::BufferHandle declare(
         graph::Graph& graph,

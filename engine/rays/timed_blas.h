@@ -28,8 +28,8 @@ class TimedBlas {
         VkDeviceAddress scene = 0; ///< shader::TimedRow::meshScene; 0: it has no triangles
     };
 
-    /// Deforms, builds and waits, unless the shapes are those of the last call. The GPU must be
-    /// done with those.
+    /// Deforms, builds and waits, unless the shapes are those of the last call. The GPU must have
+    /// finished with those.
     void
     update(std::span<const extract::TimedDeformation> shapes, const gpu_scene::GpuScene& scene);
 

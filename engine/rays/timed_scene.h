@@ -26,7 +26,8 @@ class TimedScene {
     [[nodiscard]] const std::vector<shader::Geometry>&
     prepareDeformed(const extract::TimedTables& tables, const gpu_scene::GpuScene& scene);
 
-    /// Uploads the tables and declares the builds. The GPU must be done with the last frame's.
+    /// Uploads the tables and declares the builds. The GPU must have finished with the last
+    /// frame's.
     /// \param tables computed with `frame`
     /// \param firstDeformedGeometry index of the first row of prepareDeformed() in the geometry
     /// table

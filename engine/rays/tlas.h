@@ -35,8 +35,8 @@ class FrameTlas {
   public:
     explicit FrameTlas(gpu::Device& device) : mDevice(device), mDeformedBlas(device) {}
 
-    /// Declares the builds that the frame calls for, of deformed meshes too. The GPU must be done
-    /// with the last frame's. `scene` has built its BLASes, and is the same in every call.
+    /// Declares the builds that the frame calls for, of deformed meshes too. The GPU must have
+    /// finished with the last frame's. `scene` has built its BLASes, and is the same in every call.
     [[nodiscard]] TlasHandles declare(
         graph::Graph& graph,
         const extract::ExtractedFrame& frame,

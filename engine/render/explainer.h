@@ -26,7 +26,7 @@ enum class ExplainedKind : uint8_t {
 enum class PassOwner : uint8_t {
     Scene,   ///< any picture needs it: deformed meshes, G-buffer
     Rays,    ///< acceleration structures that effects trace rays through
-    Blur,    ///< the motion blur, by whatever method
+    Blur,    ///< the motion blur, by any method
     Other,   ///< any other post effect
     Display, ///< brings the linear picture to a screen, a file or memory
 };

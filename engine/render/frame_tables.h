@@ -13,8 +13,8 @@
 
 namespace shutter::render {
 
-/// One for each raster of a frame in flight: the GPU must be done with the frame that it was
-/// uploaded for last.
+/// One for each raster of a frame in flight: the GPU must have finished the frame that it was last
+/// uploaded for.
 class FrameTables {
   public:
     explicit FrameTables(gpu::Device& device) : mDevice(device), mEntityTable(device) {}

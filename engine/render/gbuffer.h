@@ -39,7 +39,7 @@ class GBufferPass {
         gpu::Pipeline moving; ///< of the others
     };
 
-    /// By Variant: of those that the scene has surfaces of.
+    /// By Variant: those of the scene's surfaces.
     using Variants = std::array<std::optional<Pipelines>, 4>;
 
     GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);

@@ -18,7 +18,7 @@ inline constexpr VkFormat kEdgeSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
 /// for motion to a hundredth of a pixel.
 struct GBuffer {
     graph::ImageHandle color;       ///< RGBA16F, linear HDR, at most kMaxColor
-    graph::ImageHandle normal;      ///< RGBA16F, xyz unit, world axes; 0 where nothing is
+    graph::ImageHandle normal;      ///< RGBA16F, xyz unit, world axes; 0 for the background
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy pixels open to close, depth metres along
                                     ///< the view; with edgeSurface, a bit for each sample that
                                     ///< edgeSurface covers, as a number

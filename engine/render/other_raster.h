@@ -22,7 +22,8 @@ struct ShadowPipelines;
 /// The view of the end of the exposure that is farther from the raster instant.
 [[nodiscard]] extract::ViewRequest makeViewOfOtherEnd(const extract::ViewRequest& view);
 
-/// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
+/// One for each frame in flight: the GPU must have finished the frame that it was last declared
+/// for.
 class OtherRaster {
   public:
     explicit OtherRaster(gpu::Device& device);

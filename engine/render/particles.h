@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws particles over a picture: as they are at one instant, or on their way through an exposure.
+// Draws particles over a picture: at one instant, or with their motion over an exposure.
 #pragma once
 
 #include "engine/extract/particles.h"
@@ -34,7 +34,8 @@ struct ParticleTargets {
     std::optional<ParticleInstants> instants{};
 };
 
-/// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
+/// One for each frame in flight: the GPU must have finished the frame that it was last declared
+/// for.
 class ParticleBuffer {
   public:
     explicit ParticleBuffer(gpu::Device& device) : mDevice(device) {}
@@ -86,7 +87,7 @@ class ParticlePass {
     struct Draws {
         graph::Graph& graph;
         const ParticleTargets& targets;
-        VkBuffer tables; ///< in place of instants that there are none of
+        VkBuffer tables; ///< placeholder if there are no instants
         uint32_t count;  ///< of particles
     };
 

@@ -38,7 +38,7 @@ struct ViewFacts {
     bool usesLens = false;   ///< ViewRequest::usesLens
     double rasterTime = 1.0; ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
-    bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced
+    bool deviceHasRayQuery = false; ///< time-sampled rays can be traced
     /// Whether rays past movers could hit a surface (extract::decideReveal); skipped if nothing
     /// moves.
     core::Decision reveal;
@@ -53,7 +53,7 @@ struct ViewFacts {
     /// Light of the brightest channel of a pixel in the last picture that is known; nothing: none
     /// is.
     std::optional<float> lastBrightest;
-    bool brightestWanted = false; ///< that light of this picture is to be measured (kBrightest)
+    bool brightestWanted = false; ///< kBrightest of this picture is requested
 };
 
 /// Named intermediates that were requested (`--aov`).
@@ -94,7 +94,7 @@ struct ExtractContext {
     uint32_t slot = 0; ///< PostContext::slot
     /// Drawn at the exposure's other end (ViewRequest::instant); empty unless the effect reads it.
     std::optional<ExtractedRaster> secondRaster{};
-    std::optional<ExtractedRaster> lastRaster{}; ///< of the frame before; likewise
+    std::optional<ExtractedRaster> lastRaster{}; ///< of the previous frame; likewise
     /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
@@ -125,7 +125,7 @@ struct PostContext {
     const graph::TimedRays* timedRays; ///< null if no effect requested time-sampled rays
     /// Drawn at the exposure's other end (ViewRequest::instant); null unless the effect reads it.
     const OtherRasterView* secondRaster = nullptr;
-    const OtherRasterView* lastRaster = nullptr; ///< of the frame before; likewise
+    const OtherRasterView* lastRaster = nullptr; ///< of the previous frame; likewise
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display{};                ///< display-encoded, once an effect has made it
     Intermediates& intermediates;
@@ -142,7 +142,7 @@ struct PostContext {
     std::optional<ParticleInstants> particleInstants{};
 };
 
-/// A frame that the GPU is done with, as one effect sees it.
+/// A frame that the GPU has finished, for one effect.
 struct FinishedFrame {
     uint32_t slot = 0;                      ///< PostContext::slot of it
     bool ran = false;                       ///< the effect declared passes for it
@@ -172,25 +172,25 @@ class PostEffect {
     /// The same for rays at any time of the exposure.
     [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
 
-    /// Whether it draws blended surfaces that move itself, after its own passes: those in
-    /// ExtractedFrame::layerRows are in no raster then.
+    /// Whether it draws moving blended surfaces itself, after its own passes: those in
+    /// ExtractedFrame::layerRows are then in no raster.
     [[nodiscard]] virtual core::Decision askLayer(const ViewFacts&) const { return {}; }
 
     /// The same for a raster of the world at the other end of the exposure
     /// (PostContext::secondRaster).
     [[nodiscard]] virtual core::Decision askSecondRaster(const ViewFacts&) const { return {}; }
 
-    /// The same for the raster of the frame before, drawn once more (PostContext::lastRaster): for
-    /// what did not keep it. It runs only where extract::makeViewBefore() finds that frame.
-    /// The rasters of the context are not there yet.
+    /// The same for the raster of the previous frame, drawn once more (PostContext::lastRaster):
+    /// for effects without stored history. It runs only if extract::makeViewBefore() finds that
+    /// frame. The rasters of the context do not exist yet.
     [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
 
     /// Returns whether it reads the surfaces at an edge separately (GBuffer::edgeSurface): colours
     /// are then those of one surface, otherwise the mean of all samples. Only used when it runs.
     [[nodiscard]] virtual bool readsEdges() const { return false; }
 
-    /// Whether particles are drawn over its picture, on their way through the exposure, and not
-    /// into the raster: whether or not it runs.
+    /// Whether particles are drawn over its picture, with their motion over the exposure, and not
+    /// into the raster; also used if it does not run.
     [[nodiscard]] virtual core::Decision askParticles(const ViewFacts&) const { return {}; }
 
     /// Reads the data for the effect's passes from the world; only called if ask() decided to run,

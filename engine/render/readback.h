@@ -29,7 +29,7 @@ class Readback {
     /// The picture's texels row by row, as they are stored; valid until the next frame.
     [[nodiscard]] std::span<const std::byte> bytes(size_t ticket) const;
 
-    /// Forgets all tickets; buffers are kept for the next frame.
+    /// Discards all tickets; buffers are reused by the next frame.
     void reset() { mEntries.clear(); }
 
   private:

@@ -38,8 +38,7 @@ struct ShadowPipelines;
 
 struct FrameRequest {
     extract::ViewRequest view;
-    std::set<std::string>
-        intermediates; ///< names to read back; unknown ones stay out of the result
+    std::set<std::string> intermediates; ///< names to read back; unknown ones are not in the result
     /// Names that an effect shows: made although they are not read back.
     std::set<std::string> shownIntermediates;
     bool wantColor = true;    ///< read the linear picture back
@@ -50,7 +49,7 @@ struct FrameRequest {
     bool wantPicture = true;
     /// False: the next frame looks up nothing in this one. Effects preserve their earlier history.
     bool isFollowed = true;
-    /// It measures something and is no frame of the picture: what frames no longer use stays.
+    /// A measurement, not a frame of the picture: idle resources are not freed.
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
     bool wantTrace = false; ///< copy the outputs of each pass to FrameResult::trace
@@ -74,8 +73,8 @@ struct FrameResult {
     std::vector<WrittenImage> trace;
 };
 
-/// Frames for which unused memory is kept: a short pause causes no reallocation, and a scene that
-/// no longer needs the memory frees it.
+/// Frames after which unused memory is freed: a short pause causes no reallocation, and a scene
+/// that no longer needs the memory frees it.
 inline constexpr uint32_t kFramesKept = 120;
 
 /// Counts consecutive frames in which something was not wanted.
@@ -97,14 +96,14 @@ class IdleCounter {
 
 /// Longest motion in a picture during its exposure.
 struct LongestPath {
-    /// Longest way of a visible point across the picture, or of a caster of shadows, which need not
-    /// be visible; pixels. 0: nothing moves.
+    /// Longest motion in the picture of a visible point or of a shadow caster, which need not be
+    /// visible; pixels. 0: nothing moves.
     double px = 0.0;
     bool movesLight = false; ///< one that lights the picture does
 };
 
 /// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished
-/// in one order: with one frame in flight one by one, with more the CPU goes ahead of the GPU.
+/// in order: sequentially with one frame in flight, with more the CPU runs ahead of the GPU.
 class Renderer {
   public:
     /// \param framesInFlight [1, gpu::kMaxFramesInFlight]. Each one has its own tables and
@@ -137,8 +136,9 @@ class Renderer {
     [[nodiscard]] core::Result<scene::MotionCap>
     measureMotionCap(const scene::World& world, const extract::ViewRequest& view);
 
-    /// How far the picture's points move in the exposure. Measured on raster images, one for each
-    /// part of the exposure (extract::planMotionParts); nothing is drawn where nothing moves.
+    /// Measures the motion of the picture's points in the exposure. Measured on raster images, one
+    /// for each part of the exposure (extract::planMotionParts); nothing is drawn where nothing
+    /// moves.
     [[nodiscard]] core::Result<LongestPath>
     measureLongestPath(const scene::World& world, const extract::ViewRequest& view);
 
@@ -172,7 +172,8 @@ class Renderer {
         bool mayTrace = false;     ///< in another frame, if not in this
         bool samplesEdges = false; ///< the frame is drawn with several samples per pixel
         bool readsEdges = false;   ///< PostEffect::readsEdges of one of them
-        core::Decision particles;  ///< run: they are drawn on their way through the exposure ...
+        core::Decision particles;  ///< run: they are drawn with their motion over the exposure
+                                   ///< ......
         size_t particlesAt = 0;    ///< ... after as many of `effects`
     };
 
@@ -218,7 +219,7 @@ class Renderer {
         GBuffer gbuffer;
     };
 
-    /// An effect of an unfinished frame, and which of the frame's times are its own.
+    /// An effect of an unfinished frame, and the range of its pass times.
     struct PendingEffect {
         PostEffect* effect = nullptr;
         bool ran = false;

@@ -23,8 +23,8 @@ struct ShadowPipelines {
     gpu::Pipeline masked;
 };
 
-/// One for each raster of a frame in flight: the GPU must be done with the frame that it was
-/// prepared for last.
+/// One for each raster of a frame in flight: the GPU must have finished the frame that it was last
+/// prepared for.
 class ShadowMaps {
   public:
     explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
@@ -78,8 +78,8 @@ class ShadowMaps {
     VkExtent2D placeDrawn();
     /// Places them in rows of that width, or of the width of the widest map. \return the extent
     VkExtent2D placeInRows(uint32_t width);
-    /// Null: no map has to be drawn. It is none of the graph's own images: those share their memory
-    /// by plan, and each size of this one would make another plan.
+    /// Null: no map has to be drawn. Not a transient image of the graph: those share memory by
+    /// plan, and each size of this one would make another plan.
     const gpu::Image* prepareImage(VkExtent2D size);
 
     gpu::Device& mDevice;

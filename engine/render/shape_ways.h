@@ -32,14 +32,15 @@ struct ShapeWayLayer {
     const extract::RasterRecord* record = nullptr;
 };
 
-/// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
+/// One for each frame in flight: the GPU must have finished the frame that it was last declared
+/// for.
 class ShapeWays {
   public:
     explicit ShapeWays(gpu::Device& device);
 
-    /// Declares the shapes that are not there yet: those half way, and those of kept rasters.
+    /// Declares missing shapes: those halfway, and those of stored rasters.
     /// \param now the frame whose exposure it is
-    /// \param middles by index into ExtractedFrame::deformed of `now`: the shape half way, empty
+    /// \param middles by index into ExtractedFrame::deformed of `now`: the shape halfway, empty
     /// where nothing changes
     void declareShapes(
         graph::Graph& graph,

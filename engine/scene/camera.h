@@ -22,7 +22,7 @@ struct LensKey {
 };
 
 /// Component of a perspective camera: replaces Camera::yFov. Between keys the logarithm of the
-/// focal length is interpolated: a zoom of even speed that stays inside (0, pi) whatever the keys.
+/// focal length is interpolated: a zoom of even speed that stays inside (0, pi) for any keys.
 /// Before the first key and after the last the lens keeps that key's value. A cut is a camera cut
 /// (history.h). CameraShutter::cameraRotationScale scales the blur of zooming as it does that of
 /// turning: neither depends on depth.
@@ -38,7 +38,7 @@ struct LensMotion {
 /// True when the lens jumps after `from` and not after `to`.
 [[nodiscard]] bool hasCutWithin(const LensMotion& lens, double from, double to);
 
-/// The camera's vertical field of view, radians, at `seconds` (finite), whatever zooms it. Constant
+/// The camera's vertical field of view, radians, at `seconds` (finite), including zooms. Constant
 /// and without meaning for an orthographic camera.
 [[nodiscard]] double yFovAt(const World& world, ecs::Entity camera, double seconds);
 

@@ -134,7 +134,7 @@ enum class ShutterPhase : uint8_t {
 
 /// What determines the length of the exposure.
 enum class ShutterMode : uint8_t {
-    Physical, ///< seconds, whatever the frame rate
+    Physical, ///< seconds, independent of the frame rate
     Angle,    ///< a share of the frame's duration, as a rotating disc's opening
     Capped,   ///< Angle, but never longer than at the reference rate: a hitch does not smear
 };
@@ -150,8 +150,9 @@ struct ShutterResponse {
                                  ///< more, one of them above 0; linear between them
 };
 
-/// When a camera that jumps during the exposure counts as cut: nothing then moves in that frame. A
-/// jump stays as large however short the interval, so no smooth motion is one, however fast.
+/// Thresholds at which a jump of the camera during the exposure counts as a cut: nothing then moves
+/// in that frame. A jump has the same size in any interval, so no smooth motion is one, at any
+/// speed.
 struct CutDetection {
     bool enabled = true;
     double degrees = 10.0; ///< smallest turn that is a cut, above 0; stepped shake is far below it
@@ -169,7 +170,7 @@ struct CameraShutter {
     double cameraRotationScale = 1.0;    ///< of the blur by the camera's turning, [0, 2]
     double cameraTranslationScale = 1.0; ///< of the blur by its displacement, [0, 2]
     double objectScale = 1.0;            ///< scale of the blur of movers, [0, 2]
-    /// Longest way across the picture, percent of its width, 0 or more (MotionCap).
+    /// Maximum motion across the picture, percent of its width, 0 or more (MotionCap).
     double maxBlurPercent = std::numeric_limits<double>::infinity();
     CutDetection cuts{};
 };
@@ -208,8 +209,7 @@ struct Hidden {
     double seconds = -std::numeric_limits<double>::infinity(); ///< from this time on
 };
 
-/// The entity came to be, or came into sight, at this time: it has no past, and is not there before
-/// (history.h).
+/// The entity was created or shown at this time: it has no past, and is hidden before (history.h).
 struct Appeared {
     double seconds = 0.0;
 };

@@ -33,9 +33,8 @@ struct Deformation {
 /// False when the shape (not the place, see mayMove) is the same at every time.
 [[nodiscard]] bool mayDeform(const World& world, ecs::Entity entity);
 
-/// Where the space is in which deformed vertices are given: worldFromEntity, or, for a skinned
-/// entity, the world's axes at its first joint, so that numbers stay small wherever the skeleton
-/// is.
+/// Placement of the space of deformed vertices: worldFromEntity, or, for a skinned entity, the
+/// world's axes at its first joint, so that numbers stay small for any place of the skeleton.
 [[nodiscard]] math::dmat4 worldFromObject(const World& world, ecs::Entity entity, double seconds);
 
 /// False when worldFromObject answers the same at every time.

@@ -25,7 +25,7 @@ namespace shutter::scene {
 
 class ExposureMotion {
   public:
-    /// \param camera alive, with a Camera; `world` must outlive this and stay as it is
+    /// \param camera alive, with a Camera; `world` must outlive this and must not change
     ExposureMotion(const World& world, ecs::Entity camera, const ExposureInterval& exposure);
 
     [[nodiscard]] const ExposureInterval& exposure() const { return mExposure; }

@@ -32,7 +32,7 @@ void cutTo(World& world, ecs::Entity camera, const math::Transform& transform, d
 void cut(World& world, ecs::Entity camera, double seconds);
 /// The entity was made at `seconds`.
 void appear(World& world, ecs::Entity entity, double seconds);
-/// Does not draw the entity and its descendants, at whatever time.
+/// Hides the entity and its descendants at all times.
 void hide(World& world, ecs::Entity entity);
 /// The same from `seconds` on (finite): until then they are drawn, also in an exposure that it lies
 /// in.

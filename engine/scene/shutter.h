@@ -67,7 +67,7 @@ struct ExposureInterval {
 
     /// s of the raster instant: 0 start, 0.5 centre, 1 end.
     double rasterTime = 1.0;
-    double frameSeconds = 0.0; ///< since the frame before, 0 or more
+    double frameSeconds = 0.0; ///< since the previous frame, 0 or more
     CameraShutter shutter{};
     MotionCap cap{}; ///< of this frame; Renderer::measureMotionCap() finds it
     /// Times of the whole exposure, if this is a part of one (takePart()); nothing: this is all of
@@ -80,9 +80,9 @@ struct ExposureInterval {
     }
 };
 
-/// Length of the exposure, 0 or more and finite. A frame of duration 0 is paused: nothing moves,
-/// whatever the mode, and the exposure is 0. Negative or non-finite durations count as 0, except
-/// that Capped accepts a frame of any length.
+/// Length of the exposure, 0 or more and finite. A frame of duration 0 is paused: nothing moves in
+/// any mode, and the exposure is 0. Negative or non-finite durations count as 0, except that Capped
+/// accepts a frame of any length.
 [[nodiscard]] double computeExposureSeconds(const CameraShutter& shutter, double frameSeconds);
 
 /// \param raster the frame's own time, seconds
@@ -106,8 +106,8 @@ inline constexpr double kLeastLight = 1.0 / 512.0;
 [[nodiscard]] ExposureInterval
 takePart(const ExposureInterval& exposure, double open, double close);
 
-/// By its time, so that a frame has the same number however it was reached. Where frames differ in
-/// length, their numbers need not follow one another; where they have none, all are 0.
+/// By its time, so that a frame's number does not depend on the frames drawn before. Where frames
+/// differ in length, their numbers need not follow one another; where they have none, all are 0.
 [[nodiscard]] int64_t numberFrame(const ExposureInterval& exposure);
 
 /// One sentence that names the field which is out of its range.

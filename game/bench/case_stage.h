@@ -111,7 +111,7 @@ class CaseStage {
     game::Shot mShot;
     std::optional<tonemap::Tonemap> mTonemap;
     std::unique_ptr<render::Renderer> mRenderer;
-    TruthPictures mTruth; ///< without pixels where nothing is compared
+    TruthPictures mTruth; ///< without pixels if nothing is compared
 };
 
 } // namespace shutter::bench

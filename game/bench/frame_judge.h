@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares the pictures of one frame after another with their truths, and with the frame before.
+// Compares the pictures of one frame after another with their truths, and with the previous frame.
 #pragma once
 
 #include "engine/image/image.h"

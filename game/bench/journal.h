@@ -34,7 +34,7 @@ struct PictureFacts {
     std::map<std::string, double> metrics; ///< by id; a PSNR of equal pictures is infinite
     std::string image;                     ///< file relative to the report's folder
     std::string errorMap;                  ///< likewise
-    std::string linear; ///< likewise, the linear picture; empty where it was not kept
+    std::string linear; ///< likewise, the linear picture; empty if it was not stored
     std::map<std::string, uint64_t> counters;
 };
 

@@ -25,7 +25,7 @@ struct MeasureOptions {
     double limitSeconds = 60.0; ///< of one picture; sample counts that take longer are skipped
     uint32_t truthSamples = 256;
     std::filesystem::path folder;     ///< of the report: scenes/, images/ and journal/ go into it
-    std::filesystem::path truthCache; ///< truth pictures by content, kept between runs; empty: none
+    std::filesystem::path truthCache; ///< cached truth pictures by content; empty: none
     bool comparePictures = true;      ///< false: times only
 };
 

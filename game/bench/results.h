@@ -57,7 +57,7 @@ struct MeasuredPoint {
 
 [[nodiscard]] nlohmann::json describeMethods(const std::vector<const game::MethodInfo*>& methods);
 
-/// How metrics are named and which way is better.
+/// Names of metrics and their better direction.
 [[nodiscard]] nlohmann::json describeMetrics();
 
 /// GPU milliseconds from the G-buffer to the linear picture.
@@ -88,7 +88,7 @@ describeOrigin(const std::string& suite, const gpu::DeviceInfo& device);
 /// (GPU milliseconds per pass of three shots).
 [[nodiscard]] nlohmann::json describePaperFigures();
 
-/// How the measures of a film are named and which way is better.
+/// Names of a film's measures and their better direction.
 [[nodiscard]] nlohmann::json describeTemporalMetrics();
 
 [[nodiscard]] nlohmann::json describeSequence(

@@ -23,14 +23,14 @@ namespace shutter::bench {
 /// How the truth is drawn: by accumulate, with as many instants as the frame moves.
 struct SequenceTruth {
     double maxStepPx = 0.5; ///< nothing moves farther between two instants, pixels
-    /// However far it moves: the more there are, the less each of them shows.
+    /// For any motion: the more there are, the less each of them shows.
     uint32_t mostInstants = 64;
 };
 
 /// The part of a file's name that a key of the journal gives: "hybrid.15".
 [[nodiscard]] std::string namePart(std::string key);
 
-/// The file of a picture that is kept for the film.
+/// The file of a picture that is stored for the film.
 /// \param folder of the sequence's pictures
 [[nodiscard]] std::filesystem::path
 fileOfFrame(const std::filesystem::path& folder, const std::string& key, uint32_t frame);
@@ -41,7 +41,7 @@ inline constexpr const char* kFramePattern = "frame_%06d.png";
 class SequencePass {
   public:
     /// \param source, plan outlive this
-    /// \param folder of the pictures that are kept; empty: none is
+    /// \param folder of the stored pictures; empty: none
     SequencePass(
         gpu::Device& device,
         const SequenceSource& source,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Truth pictures that `shutter bench` keeps from one run to the next.
+// Cache of truth pictures of `shutter bench` between runs.
 #pragma once
 
 #include "engine/core/result.h"

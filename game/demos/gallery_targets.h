@@ -19,7 +19,7 @@ struct Target {
     double slowest = 1.0;      ///< m/s, of the rail's targets
     double fastest = 2.0;      ///< m/s
     double along = 0.0;        ///< from the rail's middle, metres
-    double speed = 0.0;        ///< m/s along X, either way
+    double speed = 0.0;        ///< m/s along X, of either sign
     double fall = 0.0;         ///< radians, 0 upright
     double downSeconds = -1.0; ///< since it was hit; negative: it is upright
 };

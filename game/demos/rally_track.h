@@ -19,7 +19,7 @@ struct Gate {
     math::dvec2 direction{0.0}; ///< of driving, unit
 };
 
-/// A closed way through gates.
+/// A closed course through gates.
 class RallyTrack {
   public:
     /// \param gates at least three, in driving order
@@ -36,7 +36,7 @@ class RallyTrack {
     std::vector<math::dvec2> mCentreLine; ///< points of it, closed
 };
 
-/// True when the way from `from` to `to` leads through the gate in driving direction.
+/// True if the segment from `from` to `to` crosses the gate in driving direction.
 [[nodiscard]] bool passesGate(const Gate& gate, const math::dvec2& from, const math::dvec2& to);
 
 /// A straight fence on the ground.
@@ -60,8 +60,8 @@ struct RallyProgress {
     int lap = 0;         ///< laps done
 };
 
-/// Counts a gate that the way from `from` to `to` passes: the next one or, so that one that was
-/// missed does not end the race, one of the two after it. A lap is done at gate 0.
+/// Counts a gate that the segment from `from` to `to` crosses: the next one or one of the two after
+/// it, so that a missed gate does not end the race. A lap ends at gate 0.
 /// \return true when one was passed
 bool advance(
     RallyProgress& progress, const RallyTrack& track, const math::dvec2& from, const math::dvec2& to

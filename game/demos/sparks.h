@@ -20,7 +20,7 @@ namespace shutter::game {
 /// Flash of the same hit: far brighter than the picture, and gone within a tenth of a second.
 [[nodiscard]] scene::ParticleEmitter makeFlash(uint32_t seed);
 
-/// Emits at once. The entity has an emitter (CHECKed); bursts that nothing is left of are dropped.
+/// Emits at once. The entity has an emitter (CHECKed); bursts without living particles are dropped.
 void burst(ecs::Registry& registry, ecs::Entity entity, double seconds, uint32_t count);
 
 /// Emits, or does not, over the step that ends at `seconds`; likewise.

@@ -34,7 +34,7 @@ struct RideRules {
     bool wasHeld = false;     ///< the action, in the step before
 };
 
-inline constexpr double kRateTolerance = 0.15; ///< rad/s: so near counts as kept
+inline constexpr double kRateTolerance = 0.15; ///< rad/s: tolerance of the rate
 inline constexpr double kRingReach = 0.20;     ///< radians from the ring: a grab catches it
 inline constexpr double kTargetSeconds = 9.0;  ///< until another rate is demanded
 

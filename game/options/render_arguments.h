@@ -42,8 +42,8 @@ void defineDeviceOptions(CLI::App& command, gpu::DeviceOptions& options);
 /// All of `shutter render`.
 void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
 
-/// Checks everything that needs no file; loadFlythrough() goes on. Error: names the option that was
-/// used wrongly.
+/// Checks everything that needs no file; continued by loadFlythrough(). Error: names the option
+/// that was used wrongly.
 [[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
 
 } // namespace shutter::game

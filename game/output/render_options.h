@@ -31,7 +31,7 @@ struct OutputOptions {
     std::filesystem::path film;   ///< .mp4 to make of the frames; empty: none
     std::filesystem::path ffmpeg; ///< empty: the one on PATH
     io::VideoFormat video;        ///< of the film
-    bool keepFrames = false;      ///< keep a film's frames when it is made
+    bool keepFrames = false;      ///< do not remove a film's frames
     bool restart = false;         ///< draw frames again that are complete on disk
     bool displayOut = false;      ///< .png or .jpg: tone-mapped; otherwise linear
     std::set<std::string> aovs;   ///< intermediates to write

@@ -20,7 +20,7 @@ namespace shutter::game {
 /// Draws every frame of `options`, or those of its part, and writes the files that they name; a
 /// part makes no film. Error: among others, that frames on disk were drawn otherwise, where other
 /// processes may be drawing them.
-/// \param encoder makes the film, if there is to be one
+/// \param encoder encodes the film; unused without one
 [[nodiscard]] core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
 );
@@ -47,8 +47,8 @@ namespace shutter::game {
 [[nodiscard]] core::Status
 encodeFilm(const io::VideoEncoder& encoder, const RenderOptions& options);
 
-/// Removes the frames of a film that is complete, and their folder, unless they are to be kept.
-/// Only what we put there: a folder that holds more stays.
+/// Removes the frames of a film that is complete, and their folder, unless they are to be
+/// preserved. Removes only our files: a folder with others remains.
 void removeFilmFrames(const RenderOptions& options, const std::filesystem::path& framesJournal);
 
 } // namespace shutter::game

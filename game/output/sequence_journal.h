@@ -50,7 +50,7 @@ class SequenceJournal {
     /// Error: the journal cannot be written.
     [[nodiscard]] core::Status addFrom(const SequenceJournal& other, int frame);
 
-    /// Frames that were added, whatever became of their files.
+    /// Frames that were added, regardless of their files.
     [[nodiscard]] size_t frameCount() const { return mFrames.size(); }
 
     [[nodiscard]] const std::filesystem::path& file() const { return mFile; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The methods of drawing a picture, by name: those of the motion blur, and those that draw the
-// scene in their own way; presets of them; and which of a picture's passes count as the method's.
+// scene differently; presets of them; and which of a picture's passes count as the method's.
 #pragma once
 
 #include "engine/core/result.h"
@@ -79,7 +79,7 @@ enum class PassGroup : uint8_t {
 };
 
 /// `sharp` adds nothing to a picture unless a lens filters it. The scene counts as the method's own
-/// if it draws that in its own way (many frames, rays alone); rays do if it traces any.
+/// if it draws that differently (many frames, rays alone); rays do if it traces any.
 [[nodiscard]] PassGroup groupOf(const MethodInfo& method, render::PassOwner owner);
 
 /// GPU milliseconds of the passes of PassGroup::Blur.

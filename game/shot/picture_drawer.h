@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One picture by any method, however many frames it takes: raster with a filter is one frame, or
+// Draws one picture by any method, in any number of frames: raster with a filter is one frame, or
 // one for each part of the exposure where something jumps; an average of instants or of batches of
 // rays is many.
 #pragma once
@@ -31,7 +31,7 @@ namespace shutter::game {
 /// Number of instants that accumulate averages, if it depends on the frame's motion.
 struct InstantChoice {
     uint32_t count = 1;
-    double stepPx = 0.0; ///< longest way between two instants
+    double stepPx = 0.0; ///< maximum motion between two instants
     std::string reason;  ///< a clause
 };
 
@@ -98,7 +98,7 @@ inline constexpr uint32_t kBoxFrames = 16;
     const Shot& shot, const ShotOptions& options, const MethodOptions& method, double seconds
 );
 
-/// Pictures on the way of a progressive method.
+/// Intermediate pictures of a progressive method.
 struct Checkpoints {
     std::vector<uint32_t> rays; ///< per pixel, above 0, in any order; those above the samples never
                                 ///< come
@@ -157,11 +157,11 @@ class PictureDrawer {
     [[nodiscard]] std::optional<FinishedPicture> takeFinished();
 
   private:
-    /// A picture that the frame after may go on from.
+    /// A picture that the next frame may use as history.
     struct Drawn {
         extract::ViewRequest view;
         bool hasTaa = false;
-        bool hasRaster = false; ///< the method kept it
+        bool hasRaster = false; ///< the method stored it
     };
 
     /// Effects, created on first use, and the collected results of the slot's picture.

@@ -27,8 +27,8 @@ struct DepthOfFieldSettings {
 /// each.
 [[nodiscard]] uint32_t computeTileSize(uint32_t height);
 
-/// Filters the linear picture by the camera's lens at the raster instant; a camera without one
-/// leaves the picture as it is. Circles of confusion are discs whatever the lens's blades and
+/// Filters the linear picture by the camera's lens at the raster instant; without a lens the
+/// picture does not change. Circles of confusion are discs regardless of the lens's blades and
 /// squeeze, and at most shader::kReachTiles tiles in radius. Writes RGBA16F.
 class DepthOfField : public render::PostEffect {
   public:

@@ -15,7 +15,7 @@ namespace shutter::motion_blur {
 
 /// GPU time that the effect may take of a frame.
 struct BlurBudget {
-    /// Infinity: unlimited; nothing is measured and nothing is given up.
+    /// Infinity: unlimited; nothing is measured and quality is never reduced.
     double milliseconds = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool isUnlimited() const {
@@ -42,10 +42,10 @@ struct BudgetLevel {
 /// method.
 [[nodiscard]] std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted);
 
-/// Chooses a level from the times of the frames before. Goes down when two frames in a row took too
-/// long, by one level or, where half as much again was taken, to the one that is expected to fit.
-/// Goes up by one when that is expected to leave a margin for a while; the wait doubles each time a
-/// step up had to be taken back.
+/// Chooses a level from the times of earlier frames. Steps down when two consecutive frames took
+/// too long, by one level or, if they took half as much again, to the one that is expected to fit.
+/// Steps up by one when that is expected to leave a margin for a while; the wait doubles each time
+/// a step up had to be reverted.
 class BudgetController {
   public:
     /// Both must be valid.

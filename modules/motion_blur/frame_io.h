@@ -3,8 +3,9 @@
 //
 // Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
 // (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the
-// sky too. `depth` is metres along the view direction, kSkyDepth (1e9) where nothing is. The entity
-// id is the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
+// sky too. `depth` is metres along the view direction, kSkyDepth (1e9) for the background. The
+// entity id is the row of the entity table, 0xFFFFFFFF for the background. All images have one
+// size.
 #pragma once
 
 #include "engine/gpu/vulkan.h"
@@ -27,7 +28,7 @@ class RasterHistory;
 struct OwnReveal;
 struct OwnSamples;
 
-/// The raster of the frame before, as that frame's inputs were.
+/// The raster of the previous frame, as that frame's inputs were.
 struct LentRaster {
     graph::ImageHandle color;       ///< RGBA16F, sharp
     graph::ImageHandle motionDepth; ///< RGBA32F
@@ -62,18 +63,18 @@ struct InstantMotions {
     /// Each instant has a place of the lens (extract::spreadLensPairs()), of which the raster is
     /// taken from the middle.
     bool hasLens = false;
-    bool hasLast = false;          ///< of the raster that `history` keeps or `lent` is, too
+    bool hasLast = false;          ///< also of the raster in `history` or `lent`
     std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
     /// A tile may see more entities that move than its list holds (mayCrowdTiles()).
     bool mayCrowd = true;
     /// For the layers in which something deforms. Empty: motion vectors are followed, of this
     /// frame's raster alone.
     DrawWays drawWays;
-    /// The view's: the raster of the frame before is read from it, unless it is `lent`. Null: none
-    /// is kept, nor read from it.
+    /// The view's: the raster of the previous frame is read from it, unless it is `lent`. Null: no
+    /// history is stored or read.
     RasterHistory* history = nullptr;
     bool keepsRaster = true;            ///< in `history`, this frame's, for the next one
-    std::optional<LentRaster> lent;     ///< of the frame before
+    std::optional<LentRaster> lent;     ///< of the previous frame
     std::optional<SecondRaster> second; ///< `table` also maps its surfaces to the instants
 };
 
@@ -103,8 +104,8 @@ struct MotionBlurInputs {
     /// Requests the surfaces visible in each pixel of a rectangle at some of the instants
     /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; other methods give none.
     std::vector<shader::InstantSurfaces> surfaces;
-    /// False: the frame is drawn for what RasterHistory keeps of it alone. For
-    /// Method::readsInstantMotions, which then needs no timed rays.
+    /// False: the frame is drawn only for RasterHistory. For Method::readsInstantMotions, which
+    /// then needs no timed rays.
     bool wantsPicture = true;
     bool wantsCounters = true;           ///< MotionBlur::counters() will be read
     bool wantsMethodCounters = true;     ///< and the method's own among them, not the blocks alone
@@ -112,14 +113,14 @@ struct MotionBlurInputs {
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.
     bool colorIsWritable = false;
-    /// Index of the frame in flight, below kMostSlots (params.h): the GPU must be done with the
-    /// slot's last frame.
+    /// Index of the frame in flight, below kMostSlots (params.h): the GPU must have finished with
+    /// the slot's last frame.
     uint32_t slot = 0;
 
     /// Whether the method reads back its own counters.
     [[nodiscard]] bool countsOwn() const { return wantsCounters && wantsMethodCounters; }
 
-    /// Whether `color` may be where the blurred picture goes.
+    /// Whether `color` may be the target of the blurred picture.
     [[nodiscard]] bool mayWriteColor() const {
         return target.isValid() ? target == color : colorIsWritable;
     }

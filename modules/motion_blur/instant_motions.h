@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What InstantMotions (frame_io.h) refers to, on the device: a frame's tables of motion, and the
-// raster of the frame before.
+// raster of the previous frame.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -19,7 +19,7 @@ namespace shutter::motion_blur {
 [[nodiscard]] VkDeviceAddress
 writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer);
 
-/// Whether so many entities move that a tile may see more of them than its list holds.
+/// Whether there are so many movers that a tile's list may overflow.
 [[nodiscard]] bool mayCrowdTiles(const math::InstantLayers& layers);
 
 /// A view's raster, stored for the next frame. The owner of a view's frames holds one; whichever
@@ -33,13 +33,13 @@ class RasterHistory {
 
     explicit RasterHistory(gpu::Device& device) : mDevice(device) {}
 
-    /// Whether a raster of that size is kept.
+    /// Whether a raster of that size is stored.
     [[nodiscard]] bool holds(glm::uvec2 sizePx) const;
 
-    /// The raster kept last; holds() must be true.
+    /// The last stored raster; holds() must be true.
     [[nodiscard]] const Raster& newest() const { return mRasters.at(mNewest); }
 
-    /// The raster kept before the newest one, which must be there, is the newest again.
+    /// Discards the newest raster, which must exist; the one before it becomes the newest.
     void stepBack() { mNewest = 1 - mNewest; }
 
     /// Images for another raster, which becomes the newest; the one before stays as it is until the
@@ -49,7 +49,7 @@ class RasterHistory {
     /// Two rasters that have no memory, for graphs that are compiled and never run.
     void imagine(glm::uvec2 sizePx);
 
-    /// Nothing is kept any more, nor memory for it once the GPU is done with it.
+    /// Discards the history and frees its memory once the GPU has finished with it.
     void forget();
 
     /// Device memory of the history, bytes: 32 per pixel once it holds two rasters.

@@ -93,7 +93,7 @@ struct MotionBlurSettings {
     bool operator==(const MotionBlurSettings&) const = default;
 };
 
-/// The settings with a method and a sampleCount, whatever they leave to the effect.
+/// Returns the settings with defaults filled in for method and sampleCount.
 /// \param knowsMotions getDefaultMethod()'s
 [[nodiscard]] MotionBlurSettings
 complete(const MotionBlurSettings& settings, bool knowsMotions = true);

@@ -38,14 +38,14 @@ class StaticLayer {
     /// Finds static entities. Must be called in the order of a view's frames.
     void extract(const render::ExtractContext& context);
 
-    /// The camera of the frame that extract() was called for is at rest: else nothing is static.
+    /// Whether the camera of the frame of extract() is at rest; otherwise nothing is static.
     [[nodiscard]] bool isGathering() const { return mRecord.has_value(); }
 
     /// \param context of the frame that extract() was called for, which gathers; the slot's last
     /// frame must be finished
     [[nodiscard]] Frame turn(const render::PostContext& context);
 
-    /// The next frame has none before it; the memory goes once the GPU is done with it.
+    /// Drops the history; its memory is freed once the GPU has finished with it.
     void forget();
 
   private:

@@ -46,7 +46,7 @@ class Taa : public render::PostEffect {
   public:
     explicit Taa(gpu::Device& device);
 
-    /// For the frames to come. Disabled, it keeps no picture.
+    /// Applies to later frames. Disabled, it stores no history.
     void setEnabled(bool enabled) { mEnabled = enabled; }
 
     [[nodiscard]] std::string name() const override { return "taa"; }

@@ -44,7 +44,7 @@ inline constexpr size_t kCheckedPixels = size_t{kCheckedWidth} * kCheckedHeight;
 /// A frame of a scene as the engine's raster has it.
 struct CheckedDrawing {
     std::vector<glm::vec4> color{kCheckedPixels};
-    std::vector<glm::vec2> motion{kCheckedPixels}; ///< pixels since the frame before
+    std::vector<glm::vec2> motion{kCheckedPixels}; ///< pixels since the previous frame
     std::vector<float> metres = std::vector<float>(kCheckedPixels);
     std::vector<uint32_t> ids = std::vector<uint32_t>(kCheckedPixels);
     motion_blur::HostCameras cameras; ///< reversed; infinite where they are perspective
@@ -52,7 +52,7 @@ struct CheckedDrawing {
     std::vector<uint32_t> movers; ///< rows that move
     std::vector<bool> deforms;    ///< by row
     /// World from object of a row, and the camera, at shares of the time between the frames: 0 the
-    /// frame before, 1 this one.
+    /// previous frame, 1 this one.
     std::function<math::dmat4(uint32_t row, double share)> placeAt;
     std::function<motion_blur::HostCameraKey(double share)> cameraAt;
 };
@@ -179,10 +179,10 @@ void declareJitter(GivenFrame& given);
 /// Draws with it, and leaves it in the vectors.
 void leaveJitter(GivenFrame& given);
 
-/// Turns the cameras of each frame away from those of the frame before.
+/// Turns the cameras of each frame away from those of the previous frame.
 void turnAway(GivenFrame& given);
 
-/// Share of the time between the frames at a shutter time: 0 the frame before, 1 this one.
+/// Share of the time between the frames at a shutter time: 0 the previous frame, 1 this one.
 [[nodiscard]] double shareAt(const GivenFrame& given, double shutterTime);
 
 /// Keys of the frame before and of this one, as a host has them that knows no others.

@@ -77,7 +77,7 @@ void listDepthAndCameras(Cases& add) {
     });
     add("linear depth in half floats", [](Given& g) {
         storeLinearDepth(g, 1.0f);
-        g.depthFormat = VK_FORMAT_R16_SFLOAT; // infinity where nothing is
+        g.depthFormat = VK_FORMAT_R16_SFLOAT; // infinity for the background
     });
     add("depth of 16 bits", [](Given& g) { g.depthFormat = VK_FORMAT_D16_UNORM; });
     add("a view along +Z", [](Given& g) { lookAlongPlusZ(g); });

@@ -290,7 +290,7 @@ class EmbeddedBlended : public test::EmbeddedTest {
 
     std::optional<PaneHost> mPane;
     Raster mRaster;
-    Raster mBefore; ///< of the frame before, which shows the wall behind the square
+    Raster mBefore; ///< of the previous frame, which shows the wall behind the square
 };
 
 TEST_F(EmbeddedBlended, DrawnAtInstantsIsHiddenAndShowsWhatIsBehindAtEachOfThem) {

@@ -166,7 +166,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
 
     std::vector<std::unique_ptr<InFlight>> mFrames;
     std::vector<motion_blur::HostMover> mMovers; ///< of all frames
-    const PannedFrame* mLent = nullptr;          ///< the frame before, whose images are lent
+    const PannedFrame* mLent = nullptr;          ///< the previous frame, whose images are lent
 };
 
 TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereThereIsOneAndTheHostSaysSo) {

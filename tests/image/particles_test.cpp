@@ -544,7 +544,7 @@ TEST_F(ParticleLaw, NearTheEyeTheyFadeAndBehindItTheyAreNotSeen) {
         }
         EXPECT_GT(before, 0.5);
     }
-    for (const double speed : {9.0, -9.0}) { // it crosses the plane half way
+    for (const double speed : {9.0, -9.0}) { // it crosses the plane halfway
         const double z = -0.05 - 0.5 * speed * kExposure;
         const image::Image blurred = drawWith(z, speed, "resolved");
         EXPECT_TRUE(test::allFinite(blurred));

@@ -209,7 +209,7 @@ SceneBuilder makeSqueezed(double side) {
             perExposure * math::vec3(side * 12.3 - 0.3 * place.x, 0.2 * place.y, 0.0)
         );
     quad.morphTargets.push_back(target);
-    // At rest half way, where the exposure ends.
+    // At rest halfway, where the exposure ends.
     for (size_t i = 0; i < quad.positions.size(); ++i)
         quad.positions[i] -= 0.5f * target.positions[i];
     test::addMorphed(
@@ -328,7 +328,7 @@ SceneBuilder makeLimbs() {
         for (const math::vec3& place : quad.positions) {
             const math::vec3 way(ways[limb] * float(2.0 / kExposure), 0, 0);
             target.positions.push_back(way);
-            // At rest half way, where the exposure ends.
+            // At rest halfway, where the exposure ends.
             body.positions.push_back(place + math::vec3(6 * limb, 0, -limb) - 0.5f * way);
         }
         body.normals.insert(body.normals.end(), quad.normals.begin(), quad.normals.end());

@@ -82,7 +82,7 @@ uint64_t countFromLast(const render::FrameResult& frame) {
     return found == counters.end() ? 0 : found->second;
 }
 
-/// The raster of the frame before was drawn once more.
+/// The raster of the previous frame was drawn once more.
 bool drawsLast(const render::FrameResult& frame) {
     return test::hasPass(frame, "last G-buffer");
 }

@@ -123,7 +123,7 @@ TEST_F(HardFrames, AHitchUnderACappedShutterIsAFrameAtTheReferenceRate) {
     Shot hitch = makeLitShot();
     hitch.shutter.mode = scene::ShutterMode::Capped;
     hitch.frameSeconds = 10.0;
-    hitch.settings.history = false; // the frame before is as long ago as the hitch is long
+    hitch.settings.history = false; // the previous frame is as long ago as the hitch is long
     holdEveryMethod(device(), stage, hitch);
     Shot reference = hitch;
     reference.frameSeconds = 1.0 / scene::CameraShutter{}.referenceFps;

@@ -94,8 +94,8 @@ class Frames {
     game::PictureDrawer mDrawer;
 };
 
-/// Expects rays that each have their own time, and sharp frames at many times, to see the same to
-/// 45 dB, and the sharp picture to be no nearer to that than `mostSharp` dB: something moves in it.
+/// Expects time-sampled rays, and sharp frames at many times, to see the same to 45 dB, and the
+/// sharp picture to be no nearer to that than `mostSharp` dB: something moves in it.
 void expectTruthsAgree(Stage& stage, Shot shot, double mostSharp = 40.0);
 
 /// How many of the frame's passes have `part` in their names.

@@ -47,7 +47,7 @@ class SequenceSource {
     [[nodiscard]] static core::Result<std::unique_ptr<SequenceSource>>
     open(const SequenceCase& film, const SequenceFiles& files, uint32_t frames);
 
-    /// Goes on to the next frame.
+    /// Advances to the next frame.
     virtual void advance() = 0;
 
     /// The sequence's own camera has a lens at some time: methods that have none draw other

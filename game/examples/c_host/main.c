@@ -86,7 +86,7 @@ int main(void) {
         colors[4 * i] = isSquare ? 1.0f : x / 10 % 2 ? 0.125f : 0.5f;
         colors[4 * i + 1] = 0.25f; /* half floats hold all of them */
         colors[4 * i + 2] = isSquare ? 0.125f : 0.375f;
-        moved[2 * i] = isSquare ? -2.0f * kSpeedPx / kWidth : 0.0f; /* to the frame before */
+        moved[2 * i] = isSquare ? -2.0f * kSpeedPx / kWidth : 0.0f; /* to the previous frame */
         metres[i] = isSquare ? 5.0f : 10.0f;
     }
     ShutterBlurDevice device = shutterBlurDefaultDevice(); /* (2) the effect, for queue family 0 */

@@ -14,9 +14,9 @@
  * Nothing is thrown and nothing aborts. On invalid calls the function returns an error, and
  * shutterBlurGetMessage() names the wrong field in one sentence.
  *
- * An object may be used by one thread at a time: a call while another thread's is under way, or
- * from within a callback, is refused, except for shutterBlurDestroy(). Matrices are column by
- * column and take columns. */
+ * An object may be used by one thread at a time: a call during another thread's call, or from
+ * within a callback, is refused, except for shutterBlurDestroy(). Matrices are column by column and
+ * take columns. */
 #ifndef SHUTTER_MOTION_BLUR_H
 #define SHUTTER_MOTION_BLUR_H
 
@@ -137,7 +137,7 @@ static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurCreate(const ShutterBlurDevice* device, ShutterBlur** blur);
 
-/* The GPU must be done with all that was recorded. Null: does nothing. */
+/* The GPU must have finished with all that was recorded. Null: does nothing. */
 SHUTTER_BLUR_API void shutterBlurDestroy(ShutterBlur* blur);
 
 /* ---- Settings ------------------------------------------------------------------------------- */
@@ -170,8 +170,8 @@ static inline ShutterBlurSettings shutterBlurDefaultSettings(void) {
     return made;
 }
 
-/* Name of the index-th method that hosts can run, in the order in which quality rises; null: there
- * are not so many. */
+/* Name of the index-th method that hosts can run, in order of rising quality; null: index out of
+ * range. */
 SHUTTER_BLUR_API const char* shutterBlurGetMethod(uint32_t index);
 
 /* ---- Inputs --------------------------------------------------------------------------------- */
@@ -405,7 +405,7 @@ typedef struct ShutterBlurInputs {
     /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
      * is static in the world, and rowCount does not count. */
     ShutterBlurImage entityId;
-    uint32_t noEntity; /* its value where nothing is */
+    uint32_t noEntity; /* its value for the background */
     /* [1, 2^24 - 1]. Values are rows below it; a pixel of another one, but noEntity, counts as
      * unresolved. */
     uint32_t rowCount;
@@ -415,11 +415,11 @@ typedef struct ShutterBlurInputs {
     const ShutterBlurCameraKey* keys;
     uint32_t moverCount;
     /* In any order, each row once. A row without one is static in the world: where it is, and in
-     * the frame before. One that is listed but does not move costs next to nothing. */
+     * the previous frame. One that is listed but does not move costs next to nothing. */
     const ShutterBlurMover* movers;
-    /* rowCount ids that entities have in every frame, so that history finds them in whatever row
-     * they are; one that occurs twice is not found, and a new one takes history from an entity that
-     * was teleported. Null: the rows, so no entity may come, go or change its row. */
+    /* rowCount ids that entities have in every frame, so that history finds them in any row; one
+     * that occurs twice is not found, and a new id removes an entity's history after a teleport.
+     * Null: the rows themselves, so entities must not be added, removed or change their row. */
     const uint64_t* rowIds;
     uint32_t view; /* index of the view, below framesInFlight: each has its own history */
     /* The previous recording of this view was submitted before this one, to the same queue, and
@@ -462,9 +462,9 @@ typedef struct ShutterBlurInputs {
      * where that is within 0.1 of 0 or 1, it is straight. Other pixels do not count. Null: those
      * movers follow their motion vectors, and have no history. */
     ShutterBlurImage deformedMotion;
-    /* The same for the raster of the frame before: displacement of its pixels' surfaces from there
-     * during this exposure. The host draws deforming entities again, posed as in that frame and
-     * with its camera. With followsLast and deformedMotion; null: deforming entities have no
+    /* The same for the raster of the previous frame: displacement of its pixels' surfaces from
+     * there during this exposure. The host draws deforming entities again, posed as in that frame
+     * and with its camera. With followsLast and deformedMotion; null: deforming entities have no
      * history. */
     ShutterBlurImage lastDeformedMotion;
 

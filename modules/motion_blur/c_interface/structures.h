@@ -47,7 +47,7 @@ struct HostSettings {
 
 [[nodiscard]] core::Result<HostPlan> convert(const ShutterBlurPlan* given);
 
-/// What HostInputs point to; it is kept from frame to frame, so that none allocates.
+/// Storage behind HostInputs; reused from frame to frame to avoid allocations.
 struct InputArrays {
     std::vector<HostCameraKey> keys;
     std::vector<HostMover> movers;

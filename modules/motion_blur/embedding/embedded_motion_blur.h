@@ -46,7 +46,7 @@ class EmbeddedMotionBlur {
     [[nodiscard]] static core::Result<uint64_t>
     estimateMemory(const HostDevice& host, const HostPlan& plan);
 
-    /// The GPU must be done with all that was recorded.
+    /// The GPU must have finished with all that was recorded.
     ~EmbeddedMotionBlur();
     EmbeddedMotionBlur(const EmbeddedMotionBlur&) = delete;
     EmbeddedMotionBlur& operator=(const EmbeddedMotionBlur&) = delete;
@@ -125,7 +125,7 @@ class EmbeddedMotionBlur {
     /// Imports the images, and declares what makes the effect's inputs of them.
     [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
     [[nodiscard]] graph::ImageHandle prepareMotion(Frame& frame) const;
-    /// The camera's part of the motion, over the exposure, whatever the vectors hold.
+    /// The camera's part of the motion, over the exposure, independent of the vectors.
     [[nodiscard]] graph::ImageHandle
     prepareCameraMotion(Frame& frame, graph::ImageHandle depth) const;
     [[nodiscard]] std::optional<LentRaster> prepareLast(Frame& frame) const;
@@ -165,7 +165,8 @@ class EmbeddedMotionBlur {
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight
     std::vector<std::unique_ptr<View>> mViews; ///< as many: frames in flight include views
     HostPlan mWarming;
-    std::future<core::Status> mWarmUp; ///< last: it is waited for before all else goes
+    std::future<core::Status> mWarmUp; ///< last: it is waited for before other members are
+                                       ///< destroyed
 };
 
 } // namespace shutter::motion_blur

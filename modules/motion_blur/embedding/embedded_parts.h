@@ -49,8 +49,8 @@ struct EmbeddedMotionBlur::Slot {
 struct EmbeddedMotionBlur::View {
     explicit View(gpu::Device& device) : history(device) {}
 
-    /// Describes the raster that `history` keeps or the host lends; nothing: there is no frame
-    /// before.
+    /// Describes the raster that `history` stores or the host lends; nothing: there is no previous
+    /// frame.
     std::optional<HostRaster> last;
     RasterHistory history;
     std::optional<BudgetController> budget;
@@ -62,7 +62,7 @@ struct EmbeddedMotionBlur::View {
     }
 };
 
-/// A recording under way.
+/// A recording in progress.
 struct EmbeddedMotionBlur::Frame {
     uint32_t number; ///< of the frame in flight
     Slot& slot;

@@ -66,7 +66,7 @@ class HostDump {
     /// \param recorder the recorder of commands
     [[nodiscard]] OwnReveal
     wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder);
-    /// The recording failed: nothing is written of it.
+    /// The recording failed: discards it.
     void drop(uint32_t frame);
 
     /// The GPU is done with the frame, or will never run it: writes its files.

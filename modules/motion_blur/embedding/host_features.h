@@ -9,9 +9,9 @@
 
 namespace shutter::motion_blur {
 
-/// Switches the features on in a chain of the host's own, in whichever structures it holds for
-/// them: those of a Vulkan version or of the extension that a feature comes from. Changes nothing
-/// else. Error: names a feature that the chain has no structure for; nothing was changed.
+/// Enables the features in the host's chain, in the structures that it contains: those of a Vulkan
+/// version or of the extension that a feature comes from. Changes nothing else. Error: names a
+/// feature that the chain has no structure for; nothing was changed.
 [[nodiscard]] core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain);
 
 /// Whether the features are enabled in a chain that a device was made with. Error: names the first

@@ -53,7 +53,8 @@ struct HostInstants {
 };
 
 /// \param motion as checkMotion() accepts it
-/// \param last of the frame before, or null. It counts only in the same size and kind of projection
+/// \param last of the previous frame, or null. It counts only in the same size and kind of
+/// projection
 [[nodiscard]] HostInstants
 computeHostInstants(const HostMotion& motion, const HostMotionFrame& frame, const HostRaster* last);
 

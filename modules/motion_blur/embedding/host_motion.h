@@ -38,7 +38,7 @@ struct HostMotion {
     std::span<const uint64_t> rowIds;
     /// The table in main memory that HostInputs::response is the address of; null where that is 0.
     const shader::ResponseTable* response = nullptr;
-    uint32_t view = 0;        ///< a method that keeps no raster drops the history of its view
+    uint32_t view = 0;        ///< a method without history drops that of its view
     bool followsLast = false; ///< counts with MotionBlurSettings::history
 };
 

@@ -62,7 +62,7 @@ class CameraWay {
     std::vector<math::Pose> mPoses;   ///< one per key: world from view
 };
 
-/// A mover's way through the exposure.
+/// A mover's motion over the exposure.
 class MoverWay {
   public:
     /// \param keys its matrices, at least one

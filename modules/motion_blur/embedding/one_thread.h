@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds calls of an object that may be used by one thread at a time while another call is under
-// way, so that they are refused before they touch anything.
+// Detects concurrent calls of an object that may be used by one thread at a time, so that they are
+// refused without side effects.
 #pragma once
 
 #include "engine/core/result.h"
@@ -52,7 +52,7 @@ class OneThread {
     };
 
   private:
-    std::atomic<std::thread::id> mInside{}; ///< none: no call is under way
+    std::atomic<std::thread::id> mInside{}; ///< none: no call is in progress
 };
 
 } // namespace shutter::motion_blur

@@ -23,7 +23,8 @@ class InstantMotionBuffers {
     InstantMotionBuffers(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mScene(scene), mHistory(device) {}
 
-    /// Whether the raster of the frame before the view's is kept, for a frame that keeps its own.
+    /// Whether the raster of the frame before the view's is stored, for a frame that stores its
+    /// own.
     [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
 
     /// Computes a frame's tables.
@@ -36,7 +37,7 @@ class InstantMotionBuffers {
     /// finished
     [[nodiscard]] InstantMotions declare(const render::PostContext& context);
 
-    /// Keeps no raster any more, nor memory for one.
+    /// Discards stored rasters and their memory.
     void forget();
 
   private:
@@ -52,7 +53,7 @@ class InstantMotionBuffers {
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
     std::optional<extract::RasterRecord> mLast;   ///< of the newest raster of mHistory
-    std::optional<extract::RasterRecord> mBefore; ///< of the one kept before
+    std::optional<extract::RasterRecord> mBefore; ///< of the one stored before
     extract::InstantTables mTables;               ///< of the frame that was extracted
     uint32_t mInstantCount = 0;
     bool mHasHistory = false;

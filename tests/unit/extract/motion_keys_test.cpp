@@ -321,7 +321,7 @@ TEST(DeformationKeys, ABoundIsNeverBelowWhatAVertexDoes) {
     }
 }
 
-/// Largest distance of a vertex from its straight way, half way between two poses.
+/// Largest distance of a vertex from its straight way, halfway between two poses.
 double measureHalfWay(const Deformation& a, const Deformation& exact, const Deformation& b) {
     const scene::Primitive rod = makeRod();
     double largest = 0.0;

@@ -81,7 +81,7 @@ TEST_F(History, WhatAppearsInTheFrameStandsStillInItAlone) {
         expectHeld(other, false);
         expectHeld(mCamera, false);
     }
-    // At the frame before, which showed it already; long ago; and in a time to come.
+    // At the previous frame, which showed it already; long ago; and in a time to come.
     for (const double seconds : {0.9, 0.5, -10.0, 1.01}) {
         appear(mWorld, mover, seconds);
         expectHeld(mover, false);

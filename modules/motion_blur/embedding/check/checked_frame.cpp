@@ -48,7 +48,7 @@ HostCamera cameraOf(const CheckFacts& facts, const dmat4& view, const dmat4& cli
     return normalize(HostCameraKey{0.0, view, clip}, isPlus).value();
 }
 
-/// Depth of a place from the camera of the frame before.
+/// Depth of a place from the camera of the previous frame.
 float metresBefore(const shader::PrepareTable& table, const glm::vec2& place, float metres) {
     const bool isPerspective = (table.flags & shader::kPreparePerspective) != 0;
     const glm::vec4 point(isPerspective ? place * metres : place, metres, 1.0f);

@@ -70,7 +70,7 @@ class Keys {
     /// Whether the keys are reversed in time. With the raster instant in the middle, its key does
     /// not reveal that.
     [[nodiscard]] bool areReversed(const Exposure& exposure) const {
-        // One end of a longer exposure may lie beyond the frame before.
+        // One end of a longer exposure may lie beyond the previous frame.
         if (exposure.wantedPx < 2.0 * kSamePx || exposure.wantedPx > mFramePx)
             return false;
         const HostCamera end = at(exposure.time);
