@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace shutter::extract {
@@ -32,6 +34,14 @@ bool hasSameParts(const scene::Deformation& a, const scene::Deformation& b) {
            a.waves.waves.size() == b.waves.waves.size();
 }
 
+/// Of a raster before this frame's: what hides what is the same in both, so that it adds nothing to
+/// what may be seen.
+bool showsNothingElse(const RasterRecord& last, const RasterRecord& now) {
+    return last.shapes.empty() && now.shapes.empty() && last.entities == now.entities &&
+           last.unjitteredFromWorld == now.unjitteredFromWorld &&
+           last.worldFromObject == now.worldFromObject && last.layer == now.layer;
+}
+
 class Builder {
   public:
     Builder(
@@ -44,9 +54,8 @@ class Builder {
         : mWorld(world), mView(view), mFrame(frame),
           mCamera(world.registry.get<scene::Camera>(view.camera)), mMotion(motion) {
         if (view.usesLens)
-            takePairs(instantCount);
-        else
-            takeTimes(instantCount);
+            SHUTTER_CHECK_EQ(instantCount % shader::kLensSets, 0u);
+        takeTimes(view.usesLens ? instantCount / shader::kLensSets : instantCount);
         mRasterPicture = pictureFromWorldAt(mWorld, mView, mMotion, view.exposure.rasterTime);
         mShapeOfRow.assign(mFrame.worldFromObject.size(), kNoRow);
         for (uint32_t i = 0; i < mFrame.deformed.size(); ++i)
@@ -61,12 +70,15 @@ class Builder {
             describeLens(tables);
         tables.record = makeRasterRecord(mWorld, mView, mMotion, mFrame, mView.exposure.rasterTime);
         tables.raster = describeRaster(tables.rasterWays);
-        if (last && isOfFrameBefore(mWorld, mView, mMotion, *last))
+        if (last && isOfFrameBefore(mWorld, mView, mMotion, *last) &&
+            !(mView.usesLens && showsNothingElse(*last, tables.record)))
             tables.last = describeLast(*last, tables.record, tables.lastWays);
         if (second)
             tables.second =
                 describeSecond(makeSecondRecord(*second), tables.record, tables.secondWays);
         tables.middles = poseMiddles(tables);
+        if (mView.usesLens)
+            forgetStillness(tables);
         return tables;
     }
 
@@ -79,23 +91,38 @@ class Builder {
     }
 
     /// Each instant has a place of the lens. From there the picture is the pinhole's, sheared.
-    void takePairs(uint32_t count) {
-        SHUTTER_CHECK_EQ(count % shader::kLensSets, 0u);
+    void describePairs(InstantTables& tables) const {
+        const auto samples = uint32_t(mTimes.size());
         ViewRequest view = mView;
-        for (const LensPair& pair : spreadLensPairs(count / shader::kLensSets)) {
+        tables.times.clear();
+        for (const LensPair& pair : spreadLensPairs(samples)) {
             const double s = scene::invertLight(mView.exposure, pair.light);
             view.lensPlace = pair.place;
-            const dmat4 picture = pictureFromWorldAt(mWorld, view, mMotion, s);
-            const dmat4 shear =
-                picture * glm::inverse(pictureFromWorldAt(mWorld, mView, mMotion, s));
-            mTimes.push_back(s);
-            mPictures.push_back(picture);
-            mLens.emplace_back(math::dvec2(shear[2]), math::dvec2(shear[3]));
+            const dmat4 shear = pictureFromWorldAt(mWorld, view, mMotion, s) *
+                                glm::inverse(pictureFromWorldAt(mWorld, mView, mMotion, s));
+            tables.times.push_back(float(s));
+            tables.lens.emplace_back(math::dvec2(shear[2]), math::dvec2(shear[3]));
         }
+        const std::span<const math::vec4> lens = tables.lens;
+        for (uint32_t i = 0; i < samples; ++i)
+            tables.lensReaches.push_back(
+                describeReach(lens.subspan(i * shader::kLensSets, shader::kLensSets), mTimes[i])
+            );
+        tables.lensReaches.push_back(describeReach(lens, mTimes[samples / 2]));
+    }
+
+    shader::LensReach describeReach(std::span<const math::vec4> places, double s) const {
+        shader::LensReach reach{math::vec2(HUGE_VALF), math::vec2(-HUGE_VALF)};
+        for (const math::vec4& shift : places) {
+            reach.low = glm::min(reach.low, math::vec2(shift.z, shift.w));
+            reach.high = glm::max(reach.high, math::vec2(shift.z, shift.w));
+        }
+        reach.inverseFocus = float(1.0 / mMotion.cameraLens(s).focusDistance);
+        return reach;
     }
 
     void describeLens(InstantTables& tables) {
-        tables.lens = std::move(mLens);
+        describePairs(tables);
         const double s = mView.exposure.rasterTime;
         const scene::CameraLens lens = mMotion.cameraLens(s);
         const double yFov = mMotion.cameraYFov(s);
@@ -109,6 +136,14 @@ class Builder {
         ViewRequest view = mView;
         view.jitterPx = second.jitterPx;
         return makeRasterRecord(mWorld, view, mMotion, second.frame, second.instant);
+    }
+
+    /// What a pinhole sees at rest is seen elsewhere from other places of the lens.
+    static void forgetStillness(InstantTables& tables) {
+        tables.raster.isStill = false;
+        for (std::optional<LayerTables>* const layer : {&tables.second, &tables.last})
+            if (*layer)
+                (*layer)->isStill = false;
     }
 
     [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {
@@ -328,9 +363,8 @@ class Builder {
     const ExtractedFrame& mFrame;
     const scene::Camera& mCamera;
     const scene::ExposureMotion& mMotion;
-    std::vector<double> mTimes;
-    std::vector<dmat4> mPictures;  ///< one per instant
-    std::vector<math::vec4> mLens; ///< the same; empty: a pinhole
+    std::vector<double> mTimes;   ///< of instants; with a lens of samples
+    std::vector<dmat4> mPictures; ///< one per instant of mTimes
     dmat4 mRasterPicture{1.0};
     std::vector<uint32_t> mShapeOfRow; ///< index into ExtractedFrame::deformed, or kNoRow
     std::optional<ExposurePictures> mWayPictures; ///< at kWayTimes

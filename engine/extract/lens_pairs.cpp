@@ -14,11 +14,6 @@ namespace shutter::extract {
 
 namespace {
 
-/// Returns a term of van der Corput's sequence, [0, 1).
-double reverseBits(uint32_t index) {
-    return shader::sobolPoint(index).x * 0x1p-32;
-}
-
 /// Returns the places of one set. Sobol's first two dimensions in the lens with the index as time
 /// are a (0, m, 3)-net; aligned blocks of the sequence are nets, and so are runs of blocks. Where a
 /// block is not whole, its places move within their order along each axis until they are even
@@ -52,9 +47,8 @@ std::vector<LensPair> spreadLensPairs(uint32_t samples) {
     std::vector<LensPair> pairs(size_t(samples) * shader::kLensSets);
     for (uint32_t set = 0; set < shader::kLensSets; ++set) {
         const std::vector<math::dvec2> places = spreadPlaces(samples, set);
-        const double inStratum = reverseBits(set) + 0.5 / shader::kLensSets;
         for (uint32_t i = 0; i < samples; ++i)
-            pairs[i * shader::kLensSets + set] = {(i + inStratum) / samples, places[i]};
+            pairs[i * shader::kLensSets + set] = {(i + 0.5) / samples, places[i]};
     }
     return pairs;
 }

@@ -15,9 +15,10 @@ struct LensPair {
     math::dvec2 place{0.0, 0.0}; ///< ViewRequest::lensPlace
 };
 
-/// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k. Each set
-/// is spread evenly over time and lens together, and so are all, and those from k = 4 n to 4 n + 3.
-/// \param samples of a set, above 0
+/// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k, and has
+/// the same time in all of them. Each set is spread evenly over time and lens together; the places
+/// of all are spread evenly over the lens, and so are those from k = 4 n to 4 n + 3. \param samples
+/// of a set, above 0
 [[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples);
 
 } // namespace shutter::extract

@@ -19,7 +19,8 @@ namespace shutter::math {
 /// The movers of one raster and their motion over the exposure.
 struct LayerTables {
     std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
-    std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
+    /// For each mover one per instant, or with a lens per sample (LayerMotion::motions).
+    std::vector<shader::InstantMotion> motions;
     /// By row of the raster's entity table: the same entity's row in this frame's raster, or
     /// shader::kNoRasterRow; empty for this frame's raster itself.
     std::vector<uint32_t> rasterRows;
@@ -36,8 +37,9 @@ struct InstantLayers {
     std::optional<LayerTables> last;   ///< nothing: the last raster is not usable for this frame
     std::vector<float> times;          ///< shutter time of each instant, [0, 1]
     std::vector<vec4> lens;            ///< InstantMotions::lens; empty: there is none
-    vec2 confusion{0.0f};              ///< InstantMotions::confusion
-    bool isPerspective = true;         ///< the camera is, at every instant; false: orthographic
+    std::vector<shader::LensReach> lensReaches; ///< InstantMotions::lensReaches; the same
+    vec2 confusion{0.0f};                       ///< InstantMotions::confusion
+    bool isPerspective = true; ///< the camera is, at every instant; false: orthographic
 };
 
 /// Picture space from a view space with -Z forward.

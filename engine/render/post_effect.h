@@ -35,8 +35,9 @@ struct ViewFacts {
     uint32_t height = 0;
     bool moves = false; ///< something in the picture, or the camera, moves
     double exposureSeconds = 0.0;
-    bool usesLens = false;   ///< ViewRequest::usesLens
-    double rasterTime = 1.0; ///< s of the raster instant in the exposure, [0, 1]
+    bool usesLens = false;    ///< ViewRequest::usesLens
+    bool isDefocused = false; ///< extract::isDefocused()
+    double rasterTime = 1.0;  ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
     bool deviceHasRayQuery = false; ///< time-sampled rays can be traced
     /// Whether rays past movers could hit a surface (extract::decideReveal); skipped if nothing

@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/words.h"
+#include "engine/extract/defocus.h"
 #include "engine/extract/demand.h"
 #include "engine/extract/instance_masks.h"
 #include "engine/gpu/vulkan.h"
@@ -210,6 +211,9 @@ core::Status Renderer::submitFrame(
         return extracted.error();
     extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
+    facts.isDefocused = extract::isDefocused(
+        world, request.view, mExtractor.view().motion(), frame, mScene.layout()
+    );
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;

@@ -87,6 +87,7 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     const VkDeviceSize headAt = layout.add(head);
     const VkDeviceSize times = layout.add(layers.times);
     const VkDeviceSize lens = layout.add(layers.lens);
+    const VkDeviceSize lensReaches = layout.add(layers.lensReaches);
     const PlacedLayer raster = place(layout, layers.raster);
     std::optional<PlacedLayer> second;
     if (layers.second)
@@ -116,6 +117,8 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     if (!layers.lens.empty()) {
         buffer.write(std::span<const glm::vec4>(layers.lens), lens);
         head[0].lens = gpu::splitAddress(buffer.address() + lens);
+        buffer.write(std::span<const shader::LensReach>(layers.lensReaches), lensReaches);
+        head[0].lensReaches = gpu::splitAddress(buffer.address() + lensReaches);
     }
     head[0].confusion = layers.confusion;
     head[0].isPerspective = layers.isPerspective ? 1 : 0;

@@ -21,14 +21,27 @@ struct InstantMotion {
 
 /// What one raster holds of the exposure.
 struct LayerMotion {
-    uvec2 movers;  // address of uint[]: by row of the raster's entity table, and one for the sky
-    uvec2 motions; // address of InstantMotion[]: for each mover one per instant
+    uvec2 movers; // address of uint[]: by row of the raster's entity table, and one for the sky
+    /// Address of InstantMotion[]: for each mover one per instant; with a lens one per sample, of
+    /// the pinhole in its middle.
+    uvec2 motions;
     uint rowCount; // of the entity table
     uint isStill;  // 1: static entities have the same place in the picture at all instants, as in
                    // the raster
 };
 
-/// Motion tables of a frame's rasters and of the previous frame's.
+/// Where the places of the lens lie that the sets take a sample at: they move what a pinhole in its
+/// middle sees at depth z by low to high, times 1 / z - inverseFocus, pixels.
+struct LensReach {
+    vec2 low;
+    vec2 high;
+    float inverseFocus; // 1/metre
+    float padding0;
+    float padding1;
+    float padding2;
+};
+
+/// What a frame's rasters and the one of the frame before hold.
 struct InstantMotions {
     LayerMotion raster;
     LayerMotion second; // of the exposure's other end
@@ -47,6 +60,8 @@ struct InstantMotions {
     vec2 confusion;
     uint isPerspective; // 1: the camera is; 0: orthographic
     uint padding0;
+    uvec2
+        lensReaches; // address of LensReach[]: one per sample, and one of all. 0: there is no lens
 };
 
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.
@@ -57,7 +72,8 @@ SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;
 /// Its pixels in the raster are not used for the exposure.
 SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
 
-/// Sets of instants with a lens, which pixels take turns in: one for each of 4 x 4.
+/// Sets of instants with a lens, which pixels take turns in: one for each of 4 x 4. They have a
+/// sample at the same time, from places of their own.
 SHUTTER_CONST uint kLensSets = 16u;
 /// The one of them that lies evenly about the lens's middle.
 SHUTTER_CONST uint kMiddleLensSet = 1u;
@@ -70,7 +86,8 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
-static_assert(sizeof(shutter::shader::InstantMotions) == 120);
+static_assert(sizeof(shutter::shader::LensReach) == 32);
+static_assert(sizeof(shutter::shader::InstantMotions) == 128);
 #endif
 
 #endif

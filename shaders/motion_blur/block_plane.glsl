@@ -26,6 +26,7 @@ struct PlaneMap {
     vec2 perX;
     vec2 perY;
     float pxPerAlong; // how far off the place is where the surface is off the plane
+    float depth;      // at the instant of what the block's centre sees: with a lens alone
 };
 
 /// Greatest distance in `along` between two planes within the block of the other.

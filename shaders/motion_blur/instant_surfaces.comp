@@ -38,8 +38,7 @@ float depthOfPlane(PixelSearch pixel, Seen seen, uint instant) {
     if (surface.key == kSkyKey) return kFarthest;
     bool isRigid = mover != kNoMover && mover != kDeformedMover;
     if (!isRigid || isStillMover(pixel.raster, mover)) return surface.depth;
-    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
-                               .motions[mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, mover, instant);
     return dot(
         motion.instantFromRaster[2],
         pictureSpace(vec2(texel) + 0.5f, surface.depth, pixel.perspective)

@@ -27,7 +27,8 @@ vec3 filterAround(ivec2 pixel, vec4 own) {
         for (int x = -kReach; x <= kReach; ++x) {
             ivec2 at = pixel + ivec2(x, y);
             bool isInside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(params.sizePx)));
-            if (!isInside || (x == 0 && y == 0)) continue;
+            bool isInReach = float(x * x + y * y) < (kMostLensFilterPx + 0.5f) * (kMostLensFilterPx + 0.5f);
+            if (!isInside || !isInReach || (x == 0 && y == 0)) continue;
             vec4 other = fetchPicture(at);
             float radius = min(-own.a, -other.a);
             float weight = clamp(radius + 0.5f - length(vec2(x, y)), 0.0f, 1.0f);

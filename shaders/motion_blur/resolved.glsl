@@ -34,6 +34,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Le
     vec4 shifts[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LensReachTable {
+    LensReach reaches[];
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer NoiseMask {
     float shares[];
 };
@@ -68,9 +72,47 @@ vec4 lensOf(InstantMotionsRef motions, uint instant) {
 /// Pixels, at a depth.
 vec2 lensShift(vec4 lens, float depth) { return lens.xy + lens.zw / max(depth, kLeastDepth); }
 
+/// Least and greatest shift that the places of a sample have between two depths, pixels.
+/// \param sample_ the number of samples: those of all
+/// \param alongs 1 / depth
+vec4 lensShifts(InstantMotionsRef motions, uint sample_, vec2 alongs) {
+    LensReach reach = LensReachTable(motions.value.lensReaches).reaches[sample_];
+    vec4 a = vec4(reach.low, reach.high) * (alongs.x - reach.inverseFocus);
+    vec4 b = vec4(reach.low, reach.high) * (alongs.y - reach.inverseFocus);
+    return vec4(min(min(a.xy, a.zw), min(b.xy, b.zw)), max(max(a.xy, a.zw), max(b.xy, b.zw)));
+}
+
 uint findMover(LayerMotion layer, uint key) {
     if (key == kSkyKey) return kSkyMover;
     return key < layer.rowCount ? MoverTable(layer.movers).movers[key] : kNoMover;
+}
+
+/// As a place of the lens sees it. \param lens lensOf()
+InstantMotion shearMotion(InstantMotion motion, uint mover, vec4 lens) {
+    if (mover == kSkyMover) lens.zw = vec2(0.0f); // it is infinitely far away
+    for (uint row = 0u; row < 3u; ++row) {
+        vec2 perPixel = motion.rasterFromInstant[row].xy;
+        motion.rasterFromInstant[row].z -= dot(perPixel, lens.xy);
+        motion.rasterFromInstant[row].w -= dot(perPixel, lens.zw);
+    }
+    for (uint axis = 0u; axis < 2u; ++axis) {
+        motion.instantFromRaster[axis] += lens[axis] * motion.instantFromRaster[2];
+        motion.instantFromRaster[axis].w += lens[axis + 2u];
+    }
+    return motion;
+}
+
+/// A rigid mover at an instant.
+/// \param hasLens each instant has a place of the lens
+InstantMotion motionAt(
+    ResolvedParams method, bool hasLens, LayerMotion layer, uint mover, uint instant
+) {
+    InstantMotionTable table = InstantMotionTable(layer.motions);
+    if (!hasLens) return table.motions[mover * method.instantCount + instant];
+    return shearMotion(
+        table.motions[mover * (method.instantCount / kLensSets) + instant / kLensSets], mover,
+        lensOf(InstantMotionsRef(method.motions), instant)
+    );
 }
 
 bool isStillMover(LayerMotion layer, uint mover) {
@@ -112,8 +154,12 @@ vec2 lookFrom(BlockLook look, vec2 inBlock) {
            unpackHalf2x16(look.perY) * inBlock.y;
 }
 
-/// Parts of the exposure for each instant, in fixed point for partOf().
-uint partsPerInstant(uint count) { return (kExposureParts << 16u) / max(count, kExposureParts); }
+/// Parts of the exposure for each instant, in fixed point for partOf(). With a lens at most one for each
+/// sample.
+uint partsPerInstant(ResolvedParams method) {
+    uint parts = (kExposureParts << 16u) / max(method.instantCount, kExposureParts);
+    return has(method, kHasLensPlaces) ? min(parts, (1u << 16u) / kLensSets) : parts;
+}
 
 /// Part of the exposure that an instant belongs to.
 uint partOf(uint instant, uint partsPerInstant_) { return instant * partsPerInstant_ >> 16u; }
@@ -128,6 +174,12 @@ uint lensSetOf(uvec2 pixel) {
     uvec2 turn = uvec2((pixel.x ^ pixel.y) & 3u, pixel.y & 3u);
     uint fine = (turn.x & 1u) << 1u | (turn.y & 1u);
     return (turn.x >> 1u) << 3u | (turn.y >> 1u) << 2u | fine;
+}
+
+/// Entries of a block in the table of looks: BlockLook.
+uint looksPerBlock(ResolvedParams method) {
+    uint looks = has(method, kHasLensPlaces) ? 2u * (method.instantCount / kLensSets) : method.instantCount;
+    return looks + 1u;
 }
 
 /// Which of the sets of instants a pixel takes.

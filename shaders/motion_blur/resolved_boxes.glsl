@@ -22,7 +22,7 @@ void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
     box.low = min(box.low, low);
     box.high = max(box.high, high);
     box.depths = vec2(min(box.depths.x, depths.x), max(box.depths.y, depths.y));
-    box.parts |= 1u << partOf(instant, partsPerInstant(method.instantCount));
+    box.parts |= 1u << partOf(instant, partsPerInstant(method));
 }
 
 /// From where the pinhole in the lens's middle sees something to where the instant's place of it does.

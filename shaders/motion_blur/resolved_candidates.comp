@@ -109,8 +109,7 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
 /// another. It is entered once for all of them, since that takes longest.
 SeenBox findBox(LayerMotion layer, Extent extent, uint sample_, bool perspective) {
     SeenBox box = kNoBox;
-    for (uint set = 0u; set < method.setCount; ++set)
-        addInstant(layer, extent, sample_ * method.setCount + set, perspective, box);
+    addSample(layer, extent, sample_, perspective, box);
     return box;
 }
 

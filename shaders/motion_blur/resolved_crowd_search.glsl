@@ -34,8 +34,7 @@ Displaced displace(
                 lensShift(lensOf(InstantMotionsRef(method.motions), instant), surface.depth);
         return Displaced(isKnown, at + displacement, surface.depth);
     }
-    InstantMotion motion =
-        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, kHasLens, layer, mover, instant);
     if (motion.instantFromRaster[2] == vec4(0.0f)) return unknown;
     float depth = depthOfKey(surface.key, surface.depth);
     vec3 seen =

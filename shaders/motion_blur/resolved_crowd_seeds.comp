@@ -59,8 +59,7 @@ vec2 placeAt(LayerMotion layer, Extent extent, uint instant, bool perspective) {
         return at + fetchMotion(extent.low) * time;
     }
     uint mover = findMover(layer, extent.key);
-    InstantMotion motion =
-        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, has(method, kHasLensPlaces), layer, mover, instant);
     vec3 seen =
         transformRows(motion.instantFromRaster, pictureSpace(at, extent.depths.x, perspective));
     return clamp(projectPicture(seen, perspective), -1.0e6f, 1.0e6f);

@@ -33,11 +33,14 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
         uint held = uTiles[tile].candidates[slot].key;
         if (held == kNoKey) held = atomicCompSwap(uTiles[tile].candidates[slot].key, kNoKey, key);
         if (held != kNoKey && held != key) continue;
-        atomicMin(uTiles[tile].candidates[slot].nearest, floatBitsToUint(max(depths.x, 0.0f)));
-        atomicMin(
-            uTiles[tile].candidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f))
-        );
-        atomicAnd(uTiles[tile].parts[slot], ~bits);
+        // Atomics are slow where threads wait for each other, and most would change nothing.
+        uint nearest = floatBitsToUint(max(depths.x, 0.0f));
+        uint farthestInverted = ~floatBitsToUint(max(depths.y, 0.0f));
+        if (uTiles[tile].candidates[slot].nearest > nearest)
+            atomicMin(uTiles[tile].candidates[slot].nearest, nearest);
+        if (uTiles[tile].candidates[slot].farthestInverted > farthestInverted)
+            atomicMin(uTiles[tile].candidates[slot].farthestInverted, farthestInverted);
+        if ((uTiles[tile].parts[slot] & bits) != 0u) atomicAnd(uTiles[tile].parts[slot], ~bits);
         return;
     }
     noteCrowd(tile, kTileIsListed);

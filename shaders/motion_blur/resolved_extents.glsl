@@ -9,6 +9,8 @@
 /// Beyond the box: half a pixel to its border, one for interpolation, and some for rounding.
 const float kMarginPx = 2.0f;
 
+const uint kNoSample = 0xFFFFFFFFu;
+
 /// Pixels of one entity.
 struct Extent {
     uint key;     // kNoKey: none
@@ -47,11 +49,17 @@ void growExtent(uvec2 surface, ivec2 pixel, inout Extent extent) {
     extent.high = max(extent.high, pixel);
 }
 
-void addRigid(
-    LayerMotion layer, Extent extent, uint mover, uint instant, bool perspective, inout SeenBox box
+/// Least and greatest 1 / depth.
+vec2 alongsBetween(vec2 depths) {
+    vec2 ends = 1.0f / max(depths, vec2(kLeastDepth));
+    return vec2(ends.y, ends.x);
+}
+
+/// \param lensSample whose places of the lens all count, or kNoSample
+void addMotion(
+    Extent extent, InstantMotion motion, uint instant, uint lensSample, bool perspective,
+    inout SeenBox box
 ) {
-    InstantMotion motion =
-        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
     if (motion.instantFromRaster[2] == vec4(0.0f)) return;
     vec2 low = vec2(1.0e9f);
     vec2 high = vec2(-1.0e9f);
@@ -69,6 +77,12 @@ void addRigid(
         high = max(high, place);
         depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
         isInFront = isInFront || seen.z > 0.0f || !perspective;
+    }
+    if (lensSample != kNoSample) {
+        vec2 alongs = extent.key == kSkyKey ? vec2(0.0f) : alongsBetween(depths);
+        vec4 shifts = lensShifts(InstantMotionsRef(method.motions), lensSample, alongs);
+        low += shifts.xy;
+        high += shifts.zw;
     }
     if (isInFront) addBox(instant, low - kMarginPx, high + kMarginPx, depths, box);
 }
@@ -90,7 +104,27 @@ void addInstant(
     if (mover == kDeformedMover)
         addDeformed(extent, instant, box);
     else
-        addRigid(layer, extent, mover, instant, perspective, box);
+        addMotion(
+            extent, motionAt(method, has(method, kHasLensPlaces), layer, mover, instant), instant,
+            kNoSample, perspective, box
+        );
+}
+
+/// Adds all instants of a sample, those of its sets, which follow one another.
+void addSample(
+    LayerMotion layer, Extent extent, uint sample_, bool perspective, inout SeenBox box
+) {
+    uint first = sample_ * method.setCount;
+    uint mover = findMover(layer, extent.key);
+    if (!has(method, kHasLensPlaces) || mover == kDeformedMover) {
+        for (uint set = 0u; set < method.setCount; ++set)
+            addInstant(layer, extent, first + set, perspective, box);
+        return;
+    }
+    InstantMotion motion = InstantMotionTable(layer.motions)
+                               .motions[mover * (method.instantCount / kLensSets) + sample_];
+    addMotion(extent, motion, first, sample_, perspective, box);
+    addMotion(extent, motion, first + kLensSets - 1u, sample_, perspective, box);
 }
 
 #endif

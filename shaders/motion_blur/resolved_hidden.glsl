@@ -28,8 +28,7 @@ vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
         return findDisplacement(kRasterLayer, ivec2(at), s, displacement) ? pixel.x - displacement
                                                                           : pixel.x;
     }
-    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
-                               .motions[mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, mover, instant);
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return pixel.x;
     float depth = dot(
         motion.instantFromRaster[2],
@@ -89,8 +88,7 @@ float farthestInRaster(Candidate candidate, PixelRay ray, bool perspective) {
 /// Considers an entity that the search did not find: it may be hidden where the pixel would see it.
 /// If the raster's surface there is farther, the entity is not there at all.
 void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Substitute best) {
-    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
-                               .motions[candidate.mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, candidate.mover, instant);
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
     PixelRay ray = findRay(motion.rasterFromInstant, pixel.x, pixel.perspective);
     vec2 at = placeOn(ray, alongAt(candidate, 0.5f, pixel.perspective), pixel.perspective);

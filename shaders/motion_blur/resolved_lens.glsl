@@ -10,10 +10,14 @@ const float kLensFilterShare = 0.18f;
 /// Radii below it gain nothing.
 const float kLeastLensFilterPx = 0.5f;
 
-/// Diameter of the circle of confusion, pixels.
-float confusionAt(InstantMotionsRef motions, float depth) {
+/// Diameter of the circle of confusion, pixels. \param along 1 / depth
+float confusionOf(InstantMotionsRef motions, float along) {
     vec2 confusion = motions.value.confusion;
-    return 2.0f * abs(confusion.x - confusion.y / max(depth, kLeastDepth));
+    return 2.0f * abs(confusion.x - confusion.y * along);
+}
+
+float confusionAt(InstantMotionsRef motions, float depth) {
+    return confusionOf(motions, 1.0f / max(depth, kLeastDepth));
 }
 
 /// How far back towards the pixel the colour is fetched from, as a share of the way over which the
@@ -34,6 +38,14 @@ vec2 shiftForInterpolation(InstantMotionsRef motions, uint instant, float along)
     vec4 lens = lensOf(motions, instant);
     float share = shareForInterpolation(abs(confusion.x - confusion.y * along));
     return share * (lens.xy + lens.zw * along);
+}
+
+/// From where a block looks at a plane by the middle set to where it does by another.
+/// \param look,change of the sample (BlockLook)
+vec2 lookOfSet(InstantMotionsRef motions, BlockLook look, BlockLook change, uint sample_, uint set) {
+    vec2 seen = change.place.x * (lensOf(motions, sample_ * kLensSets + set).zw -
+                                  lensOf(motions, sample_ * kLensSets + kMiddleLensSet).zw);
+    return unpackHalf2x16(look.perX) * seen.x + unpackHalf2x16(look.perY) * seen.y;
 }
 
 /// Alpha of a pixel whose samples have places of its own, for lens_filter.comp.

@@ -45,9 +45,11 @@ layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Margin around sample positions for linear filtering.
 const float kFetchMarginPx = 1.0f;
-/// Maximum number of blocks of the raster, across and down, that a block may sample.
-const int kMostBlocksAcross = 4;
+/// Most blocks of the raster, across and down, that a block may look at.
+const int kMostBlocksAcross = kHasLens ? 6 : 4;
 const float kFarAway = 1.0e4f;
+/// Inverse of the depth that the sky's places are taken at, 1/metre.
+const float kLeastAlong = 1.0e-6f;
 const uint kLeastInstants = 6u;
 /// Motion per instant, in pixels, from which pixels have individual instants, and the further
 /// motion until these are spread over the whole interval. Copies of an edge that lie closer are not
@@ -58,7 +60,9 @@ const float kNoiseRampPx = 2.0f;
 // With a lens.
 /// Distance between samples from which pixels have individual sets, which a filter then averages.
 const float kLensNoiseFromPx = 1.0f;
-/// Reach within which a block counts as in focus and static, pixels.
+/// Share of the circle of confusion by which what a block sees may be off one plane all the same.
+const float kToleratedShare = 0.06f;
+/// Reach within which what a block sees counts as in focus and still, pixels.
 const float kStillReachPx = 0.125f;
 /// Way up to which a few samples do.
 const float kSharedWayPx = 0.5f;
@@ -129,6 +133,19 @@ void keepInside(inout Reach reach) {
     reach.high = clamp(reach.high, vec2(0.0f), last);
 }
 
+/// From where the block looks by the middle set to where it does by any.
+void widenBySets(uint instant, vec2 alongs, bool isSky, inout Reach reach) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    if (isSky) alongs = vec2(0.0f);
+    vec4 shifts = lensShifts(motions, instant / kLensSets, alongs);
+    vec4 lens = lensOf(motions, instant);
+    vec2 a = lens.xy + lens.zw * alongs.x;
+    vec2 b = lens.xy + lens.zw * alongs.y;
+    reach.low -= max(shifts.zw - max(a, b), 0.0f);
+    reach.high += max(min(a, b) - shifts.xy, 0.0f);
+    keepInside(reach);
+}
+
 uvec2 countBlocks() { return (params.sizePx + kGroupSize - 1u) / kGroupSize; }
 
 BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x) + block.x]; }
@@ -145,7 +162,7 @@ PlaneMap lookAt(
     Reach reach = findReach(
         motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongs, perspective
     );
-    if (kHasLens) keepInside(reach);
+    if (kHasLens) widenBySets(instant, alongs, false, reach);
     bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&
                     all(lessThan(reach.high, vec2(params.sizePx)));
     if (!reach.isInFront || !isInside) return none;
@@ -158,22 +175,35 @@ PlaneMap lookAt(
     PlaneMap map =
         mapPlane(motion.instantFromRaster, plane, centreOf(middle), centreOf(block), perspective);
     if (!map.isAffine) return none;
+    float tolerancePx = params.uniformMotionPx;
+    if (kHasLens)
+        tolerancePx =
+            max(tolerancePx,
+                kToleratedShare * confusionOf(InstantMotionsRef(method.motions), plane.along));
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
             BlockPlane other = getPlane(ivec2(x, y));
             float gap = planeGap(plane, centreOf(middle), other, centreOf(ivec2(x, y)));
             // Written so that NaN is not uniform.
-            bool isOne = other.mover == mover && gap * map.pxPerAlong <= params.uniformMotionPx;
+            bool isOne = other.mover == mover && gap * map.pxPerAlong <= tolerancePx;
             if (!isOne) return none;
         }
-    if (kHasLens)
-        map.place += shiftForInterpolation(InstantMotionsRef(method.motions), instant, plane.along);
+    if (kHasLens) {
+        float along = plane.along + dot(plane.slope, map.place - centreOf(middle));
+        vec4 place = pictureSpace(map.place, 1.0f / max(along, kLeastAlong), true);
+        map.depth = dot(motion.instantFromRaster[2], place);
+        map.place += shiftForInterpolation(
+            InstantMotionsRef(method.motions), instant, alongOf(map.depth, true)
+        );
+    }
     return map;
 }
 
-/// \return whether this frame's raster shows the candidate where the block would see it, according
-/// to the keys of blocks
-bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspective) {
+/// \return whether this frame's raster shows the candidate where the block would see it, as far as the
+/// keys of blocks say
+bool isShown(
+    ivec2 block, Candidate candidate, InstantMotion motion, uint instant, bool perspective
+) {
     uint bit = keyBit(candidate.key);
     // The present occluder of the rest is searched at every instant: surfaces next to it become
     // visible.
@@ -184,7 +214,8 @@ bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspe
         perspective
     );
     if (!reach.isInFront) return true;
-    if (kHasLens) keepInside(reach);
+    if (kHasLens)
+        widenBySets(instant, alongsOf(candidate, perspective), candidate.key == kSkyKey, reach);
     vec2 size = vec2(params.sizePx);
     if (any(lessThan(reach.high, vec2(0.0f))) || any(greaterThanEqual(reach.low, size)))
         return false;
@@ -201,7 +232,7 @@ bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspe
 
 /// Candidates that the block may see.
 uint findShown(
-    ivec2 block, uint tile, uint slots, uint instant, InstantMotionTable motions, bool perspective
+    ivec2 block, uint tile, uint slots, uint instant, LayerMotion layer, bool perspective
 ) {
     uint shown = slots;
     for (; slots != 0u; slots &= slots - 1u) {
@@ -213,7 +244,7 @@ uint findShown(
         else
             isSeen = isShown(
                 block, candidate,
-                motions.motions[candidate.mover * method.instantCount + instant], perspective
+                motionAt(method, kHasLens, layer, candidate.mover, instant), instant, perspective
             );
         if (!isSeen) shown &= ~(1u << slot);
     }
@@ -241,8 +272,7 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane
         float way = 0.0f;
         for (uint i = 0u; i < kWayInstants; ++i) {
             uint instant = i * (method.instantCount - 1u) / (kWayInstants - 1u);
-            InstantMotion motion = InstantMotionTable(layer.motions)
-                                       .motions[candidate.mover * method.instantCount + instant];
+            InstantMotion motion = motionAt(method, kHasLens, layer, candidate.mover, instant);
             if (motion.rasterFromInstant[2] == vec4(0.0f)) return kFarAway;
             PixelRay ray = findRay(motion.rasterFromInstant, centreOf(block), perspective);
             vec2 place = placeOn(ray, 0.5f * (alongs.x + alongs.y), perspective);
@@ -271,21 +301,25 @@ struct BlockSearch {
     LayerMotion layer;
 };
 
-/// Displacement from a place of the block to the sample positions of the middle set: bounds,
-/// minimum and maximum of x and y.
+/// From a place of the block to where it looks in the course of the exposure, at a few instants, by all
+/// places of the lens: bounds, x and y least and greatest.
 vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
-    vec4 bounds = vec4(0.0f);
-    for (uint i = 0u; i < params.sampleCount; ++i) {
-        uint instant = i * method.setCount + kMiddleLensSet;
-        InstantMotion motion = InstantMotionTable(search.layer.motions)
-                                   .motions[mover * method.instantCount + instant];
+    const uint kTimes = 3u;
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    uint samples = params.sampleCount;
+    vec4 bounds = vec4(kFarAway, kFarAway, -kFarAway, -kFarAway);
+    for (uint i = 0u; i < kTimes; ++i) {
+        uint sample_ = i * (samples - 1u) / (kTimes - 1u);
+        InstantMotion motion =
+            InstantMotionTable(search.layer.motions).motions[mover * samples + sample_];
         if (motion.rasterFromInstant[2] == vec4(0.0f))
             return vec4(-kFarAway, -kFarAway, kFarAway, kFarAway);
         PixelRay ray = findRay(motion.rasterFromInstant, x, search.perspective);
         vec2 from = placeOn(ray, along, search.perspective) - x;
         bounds = vec4(min(bounds.xy, from), max(bounds.zw, from));
     }
-    return bounds;
+    vec4 shifts = lensShifts(motions, samples, vec2(mover == kSkyMover ? 0.0f : along));
+    return vec4(min(bounds.xy - shifts.zw, 0.0f), max(bounds.zw - shifts.xy, 0.0f));
 }
 
 /// For the block's centre or, if that sees itself, for three corners, which also detect rotation
@@ -335,10 +369,19 @@ Spread measureSpread(BlockSearch search, uint lane) {
     return spread;
 }
 
-/// Finds and stores the lookup of one instant. \return the sample positions, if the block sees a
-/// plane
+/// With a lens: how the other sets' looks at a plane differ from the middle one's.
+/// \param depth at the instant of what the block's centre sees
+BlockLook findChange(uint sample_, float depth) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    float along = alongOf(depth, true);
+    vec2 confusion = motions.value.confusion;
+    float share = 1.0f - shareForInterpolation(abs(confusion.x - confusion.y * along));
+    float focus = LensReachTable(motions.value.lensReaches).reaches[sample_].inverseFocus;
+    return BlockLook(vec2(share * (focus - along), 0.0f), 0u, 0u);
+}
+
+/// Finds and keeps the look of one instant. \return where the block looks, if that is a plane
 PlaneMap findLook(BlockSearch search, uint instant) {
-    InstantMotionTable table = InstantMotionTable(search.layer.motions);
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
     Shared seen = findShared(search.tile, slots, search.perspective);
     // Static surfaces are not candidates: they may hide parts of movers.
@@ -347,14 +390,15 @@ PlaneMap findLook(BlockSearch search, uint instant) {
     PlaneMap map;
     map.isAffine = false;
     if (seen.mover != kNoMover) {
-        InstantMotion motion = table.motions[seen.mover * method.instantCount + instant];
+        InstantMotion motion = motionAt(method, kHasLens, search.layer, seen.mover, instant);
         map = lookAt(
             search.block, seen.mover, seen.alongs, motion, instant, search.perspective
         );
     }
     uint shown = 0u;
     if (!map.isAffine) {
-        shown = findShown(search.block, search.tile, slots, instant, table, search.perspective);
+        shown =
+            findShown(search.block, search.tile, slots, instant, search.layer, search.perspective);
         if (kHasParts)
             map = lookAtParts(
                 search.block, search.tile, shown, instant, search.layer.isStill != 0u
@@ -362,7 +406,13 @@ PlaneMap findLook(BlockSearch search, uint instant) {
     }
     BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
     if (!map.isAffine) look = BlockLook(vec2(0.0f), kSearchedLook, shown);
-    uLooks[search.looks + instant] = look;
+    if (!kHasLens) {
+        uLooks[search.looks + instant] = look;
+        return map;
+    }
+    uint index = search.looks + 2u * (instant / kLensSets);
+    uLooks[index] = look;
+    if (map.isAffine) uLooks[index + 1u] = findChange(instant / kLensSets, map.depth);
     return map;
 }
 
@@ -437,7 +487,7 @@ shared uint sLeast[kMostBlocks];   // bits of Spread::leastPx
 /// All lanes of a group call it.
 Found withOwnSets(BlockSearch search, Found found, uint block, uint lane, bool isWanted) {
     uint middle = middleSet(method);
-    if (isWanted && found.noise != 0.0f)
+    if (!kHasLens && isWanted && found.noise != 0.0f)
         for (uint instant = lane; instant < method.instantCount; instant += kLanes)
             if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
                 found.isUniform = false;
@@ -564,7 +614,7 @@ void main() {
     uvec2 tiles = countTiles(params.sizePx);
     uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
     uint tile = tileAt.y * tiles.x + tileAt.x;
-    uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
+    uint looks = (block.y * blocks.x + block.x) * looksPerBlock(method);
     if (isThere && isCrowded(tile)) {
         if (lane == 0u) addCrowded(block, tile, looks);
         isThere = false;
@@ -574,7 +624,7 @@ void main() {
     if (params.uniformMotionPx > 0.0f) {
         InstantMotionsRef motions = InstantMotionsRef(method.motions);
         BlockSearch search = BlockSearch(
-            ivec2(block), tile, looks + 1u, partsPerInstant(method.instantCount),
+            ivec2(block), tile, looks + 1u, partsPerInstant(method),
             motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)
         );
         Found found = findLooks(search, inGroup, lane, isThere);

@@ -9,6 +9,7 @@
 #include "common/numeric.glsl"
 #include "motion_blur/pixel_ray.glsl"
 #include "motion_blur/resolved_layers.glsl"
+#include "motion_blur/resolved_lens.glsl"
 
 /// Fixed-point steps of a search.
 const uint kSteps = 4u;
@@ -262,8 +263,7 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
                    .rows[found.key];
     uint mover = findMover(pixel.raster, row);
     if (mover == kNoMover || isDeformed(mover)) return false;
-    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
-                               .motions[mover * method.instantCount + instant];
+    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, mover, instant);
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
     vec3 inRaster = transformRows(
         motion.rasterFromInstant, pictureSpace(pixel.x, found.depth, pixel.perspective)
@@ -297,9 +297,7 @@ void searchLayer(
             searchPart(index, candidate, instant, pixel.x, found, doubt);
         else
             searchDepths(
-                index, candidate,
-                InstantMotionTable(layer.motions)
-                    .motions[candidate.mover * method.instantCount + instant],
+                index, candidate, motionAt(method, kHasLens, layer, candidate.mover, instant),
                 pixel.perspective, pixel.x, guess, found, doubt
             );
         if (!found.isFound) continue;
@@ -329,7 +327,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.tile = tile.y * tiles.x + tile.x;
     uvec2 block = uvec2(pixel) / kGroupSize;
     uint blocksAcross = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
-    search.looks = (block.y * blocksAcross + block.x) * (method.instantCount + 1u) + 1u;
+    search.looks = (block.y * blocksAcross + block.x) * looksPerBlock(method) + 1u;
     search.inBlock = search.x - vec2(block * kGroupSize) - 0.5f * float(kGroupSize);
     float noise = 1.0f;
     if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uLooks[search.looks - 1u].perY);
@@ -337,7 +335,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.hasOwnSet = noise > 0.0f;
     search.isCrowded = kHasCrowds && isCrowded(search.tile);
     search.perspective = motions.value.isPerspective != 0u;
-    search.partsPerInstant = partsPerInstant(method.instantCount);
+    search.partsPerInstant = partsPerInstant(method);
     search.raster = getLayer(motions, kRasterLayer);
     search.second = getLayer(motions, kSecondLayer);
     search.last = getLayer(motions, kLastLayer);
@@ -370,9 +368,17 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
     if (kHasCrowds && pixel.isCrowded) return searchCrowds(pixel, instant);
     uint slots = ~0u;
     if (params.uniformMotionPx > 0.0f) {
-        BlockLook look = uLooks[pixel.looks + instant];
-        if (look.perX != kSearchedLook)
-            return Seen(true, kRasterLayer, kNoKey, lookFrom(look, pixel.inBlock), 0.0f, true);
+        uint sample_ = instant / kLensSets; // with a lens
+        uint index = pixel.looks + (kHasLens ? 2u * sample_ : instant);
+        BlockLook look = uLooks[index];
+        if (look.perX != kSearchedLook) {
+            vec2 at = lookFrom(look, pixel.inBlock);
+            if (kHasLens && pixel.set != kMiddleLensSet)
+                at += lookOfSet(
+                    InstantMotionsRef(method.motions), look, uLooks[index + 1u], sample_, pixel.set
+                );
+            return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true);
+        }
         slots = look.perY;
     }
     Seen seen = pixel.still;

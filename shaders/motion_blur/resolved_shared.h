@@ -76,7 +76,11 @@ SHUTTER_CONST uint kMostLooks = 32u;
 /// perY the bits of a float, their share of InstantNoise, [0, 1]. With a lens place.x is the
 /// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
-/// A block's lookup in this frame's raster at an instant: a plane (PlaneMap), or candidates.
+/// With a lens the looks are those of the middle set, each followed by one that says how the others
+/// differ where it is a plane: by place.x of how far their places of the lens move what lies at 1 m
+/// from where it is infinitely far away.
+///
+/// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
 struct BlockLook {
     vec2 place; // of the block's centre, pixels
     uint perX;  // two halves; kSearchedLook: candidates are searched

@@ -26,10 +26,11 @@ const uint kRows = kGroupSize / kThreadRows;
 /// Adds the samples of all pixels of the column at the same instants.
 void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    uint first = looks + middleSet(method);
+    uint first = looks + (kHasLens ? 0u : middleSet(method));
+    uint perSample = kHasLens ? 2u : method.setCount;
     for (uint i = 0u; i < count; ++i) {
         uint taken = takenInstant(i, count, params.sampleCount);
-        BlockLook look = uLooks[first + taken * method.setCount];
+        BlockLook look = uLooks[first + taken * perSample];
         vec2 at = lookFrom(look, inBlock) * pixelsToUv;
         vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows) * pixelsToUv;
         for (uint row = 0u; row < kRows; ++row)
@@ -50,18 +51,39 @@ void addOwn(ivec2 pixel, uint looks, vec2 inBlock, float noise, inout vec3 sums[
     }
 }
 
+/// The same with a lens, by whose sets they differ: every fourth row has the same.
+void addThroughLens(ivec2 pixel, uint looks, vec2 inBlock, inout vec3 sums[kRows]) {
+    const uint kTurns = kRows < 4u ? kRows : 4u;
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
+    for (uint i = 0u; i < params.sampleCount; ++i) {
+        BlockLook look = uLooks[looks + 2u * i];
+        BlockLook change = uLooks[looks + 2u * i + 1u];
+        vec2 at = lookFrom(look, inBlock);
+        vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows);
+        for (uint turn = 0u; turn < kTurns; ++turn) {
+            uint set = lensSetOf(uvec2(pixel + ivec2(0, turn * kThreadRows)));
+            vec2 own = at + lookOfSet(motions, look, change, i, set);
+            for (uint row = turn; row < kRows; row += kTurns)
+                sums[row] += textureLod(uColor, (own + step_ * float(row)) * pixelsToUv, 0.0f).rgb;
+        }
+    }
+}
+
 void main() {
     uvec2 block;
     if (!findBlock(params.sizePx, block)) return;
     ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
     uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
+    uint looks = (block.y * blocks.x + block.x) * looksPerBlock(method);
     uint count = uLooks[looks].perX;
     float noise = uintBitsToFloat(uLooks[looks].perY);
     vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
     vec3 sums[kRows];
     for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
-    if (noise > 0.0f)
+    if (kHasLens && noise > 0.0f)
+        addThroughLens(pixel, looks + 1u, inBlock, sums);
+    else if (noise > 0.0f)
         addOwn(pixel, looks + 1u, inBlock, noise, sums);
     else
         addShared(looks + 1u, count, inBlock, sums);

@@ -54,8 +54,11 @@ VkDeviceSize countAllBlocks(const PassParams& params) {
 }
 
 VkDeviceSize countLookBytes(const PassParams& params) {
-    const uint32_t instants = params.getMethod<shader::ResolvedParams>().instantCount;
-    return countAllBlocks(params) * (VkDeviceSize(instants) + 1) * sizeof(shader::BlockLook);
+    // looksPerBlock() of resolved.glsl
+    const uint32_t looks = hasLens(params)
+                               ? 2 * params.sampleCount
+                               : params.getMethod<shader::ResolvedParams>().instantCount;
+    return countAllBlocks(params) * (VkDeviceSize(looks) + 1) * sizeof(shader::BlockLook);
 }
 
 } // namespace

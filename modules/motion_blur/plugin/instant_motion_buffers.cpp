@@ -36,7 +36,7 @@ bool InstantMotionBuffers::holdsFrameBefore(const render::ExtractContext& contex
 }
 
 extract::InstantTables InstantMotionBuffers::computeTables(
-    const render::ExtractContext& context, uint32_t instantCount
+    const render::ExtractContext& context, const Instants& instants
 ) const {
     std::optional<extract::InstantFrame> secondFrame;
     if (const auto& second = context.secondRaster)
@@ -47,26 +47,27 @@ extract::InstantTables InstantMotionBuffers::computeTables(
         last = &drawnAnew.emplace(describeRaster(context.world, *drawn));
     extract::ViewRequest view = context.view;
     view.jitterPx = context.colorJitterPx;
+    view.usesLens = instants.haveLens;
     return extract::computeInstantTables(
         context.world,
         view,
         context.motion,
         context.frame,
-        instantCount,
+        instants.count,
         last,
         secondFrame ? &*secondFrame : nullptr
     );
 }
 
 void InstantMotionBuffers::extract(
-    const render::ExtractContext& context, uint32_t instantCount, bool hasHistory
+    const render::ExtractContext& context, const Instants& instants, bool hasHistory
 ) {
     if (!hasHistory)
         forget();
     else if (!context.lastRaster && isAgain(context))
         stepBack();
-    mTables = computeTables(context, instantCount);
-    mInstantCount = instantCount;
+    mTables = computeTables(context, instants);
+    mInstantCount = instants.count;
     mHasHistory = hasHistory;
 }
 

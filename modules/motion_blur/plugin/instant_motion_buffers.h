@@ -19,6 +19,11 @@ namespace shutter::motion_blur {
 
 class InstantMotionBuffers {
   public:
+    struct Instants {
+        uint32_t count = 0;    ///< countInstants() (settings.h)
+        bool haveLens = false; ///< each has a place of the lens
+    };
+
     /// \param scene must outlive this
     InstantMotionBuffers(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mScene(scene), mHistory(device) {}
@@ -28,10 +33,10 @@ class InstantMotionBuffers {
     [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
 
     /// Computes a frame's tables.
-    /// \param hasHistory surfaces are looked up in the previous frame's raster, which is
-    /// ExtractContext::lastRaster if it was not stored, and the next frame may look up surfaces in
-    /// this one's (ViewFacts::isFollowed)
-    void extract(const render::ExtractContext& context, uint32_t instantCount, bool hasHistory);
+    /// \param hasHistory things are looked up in the raster of the frame before, which
+    /// ExtractContext::lastRaster shows where it is not kept, and the next frame may look up things
+    /// in this one's (ViewFacts::isFollowed)
+    void extract(const render::ExtractContext& context, const Instants& instants, bool hasHistory);
 
     /// \param context of the frame that extract() was called for; the slot's last frame must be
     /// finished
@@ -44,7 +49,7 @@ class InstantMotionBuffers {
     /// \return empty where nothing deforms
     [[nodiscard]] DrawWays declareWays(const render::PostContext& context);
     [[nodiscard]] extract::InstantTables
-    computeTables(const render::ExtractContext& context, uint32_t instantCount) const;
+    computeTables(const render::ExtractContext& context, const Instants& instants) const;
 
     /// Whether the context's frame was the last one and is drawn again: the one before it counts.
     [[nodiscard]] bool isAgain(const render::ExtractContext& context) const;

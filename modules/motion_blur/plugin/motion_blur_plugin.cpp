@@ -83,13 +83,18 @@ void MotionBlurPlugin::chooseStandIn() {
 core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
-    if (settings().method->readsLens && facts.usesLens)
+    if (seesThroughLens(facts))
         return {true, "the lens is open"};
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
     if (!facts.moves)
         return {false, "nothing in the picture moves during the exposure"};
     return {true, "something in the picture moves during the exposure"};
+}
+
+bool MotionBlurPlugin::seesThroughLens(const render::ViewFacts& facts) const {
+    const Method& method = *settings().method;
+    return method.readsLens && (method.readsInstantMotions ? facts.isDefocused : facts.usesLens);
 }
 
 core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
@@ -156,7 +161,10 @@ core::Decision MotionBlurPlugin::askParticles(const render::ViewFacts& facts) co
 void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->readsInstantMotions)
         mInstantMotions.extract(
-            context, countInstants(settings(), context.view.usesLens), settings().history
+            context,
+            {countInstants(settings(), seesThroughLens(context.facts)),
+             seesThroughLens(context.facts)},
+            settings().history
         );
     extract::LayerLimits limits;
     if (settings().method->sampleUnit == SampleUnit::Instants)

@@ -89,6 +89,8 @@ class MotionBlurPlugin : public render::PostEffect {
         return mStandIn ? *mStandIn : mBudget.current().settings;
     }
 
+    /// Whether its samples have places of the lens.
+    [[nodiscard]] bool seesThroughLens(const render::ViewFacts& facts) const;
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// How far a lens spreads what a picture may show, by the bounds of what is drawn.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/scene/exposure_motion.h"
+
+namespace shutter::extract {
+
+/// Circles of confusion up to this diameter cannot be told from none, pixels.
+inline constexpr double kLeastDefocusPx = 0.5;
+
+/// Whether the lens may spread something in the picture over more than kLeastDefocusPx: what lies
+/// in the bounds of an entity that is drawn, where these are in sight, or infinitely far away.
+/// False without ViewRequest::usesLens. A room whose bounds hold the camera counts as at the near
+/// plane. \param motion of the view's exposure
+[[nodiscard]] bool isDefocused(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame,
+    const SceneLayout& layout
+);
+
+} // namespace shutter::extract
