@@ -63,6 +63,19 @@ TEST_F(LensLaw, AClosedLensIsThePinholeToTheBit) {
     }
 }
 
+TEST_F(LensLaw, ResolvedTakesALensThatLeavesAllInFocusForThePinhole) {
+    const Shot shot{.method = "resolved", .width = 48, .height = 32};
+    for (const bool moves : {false, true}) {
+        SceneBuilder scene = makeRoom({.fStop = 8.0, .focusDistance = 3.0}, moves);
+        Stage stage(device(), scene);
+        const render::FrameResult open = stage.render(shot);
+        scene.world.registry.remove<CameraLens>(scene.camera);
+        const render::FrameResult pinhole = stage.render(shot);
+        EXPECT_TRUE(test::sameBits(open.color, pinhole.color)) << moves;
+        EXPECT_EQ(open.statistics.passes.size(), pinhole.statistics.passes.size()) << moves;
+    }
+}
+
 TEST_F(LensLaw, MethodsWithoutALensDrawThePinhole) {
     SceneBuilder scene = makeRoom({.fStop = 0.5, .focusDistance = 5.0}, true);
     Stage stage(device(), scene);

@@ -158,6 +158,50 @@ TEST_F(InstantTablesTest, BeforeACameraThatStandsStillBothLayersAreStill) {
     EXPECT_TRUE(tables.last->isStill);
 }
 
+TEST_F(InstantTablesTest, ALensAddsPlacesButNoMotions) {
+    addTumbler();
+    world.registry.add(camera, scene::CameraLens{.fStop = 1.0, .focusDistance = 3.0});
+    const InstantTables pinhole = compute();
+    request.usesLens = true;
+    const InstantTables tables = computeInstantTables(
+        world, request, motion(), extract(), kInstants * shader::kLensSets, nullptr
+    );
+    EXPECT_EQ(tables.raster.motions.size(), pinhole.raster.motions.size());
+    EXPECT_EQ(tables.lens.size(), size_t(kInstants) * shader::kLensSets);
+    EXPECT_EQ(tables.times.size(), tables.lens.size());
+    ASSERT_EQ(tables.lensReaches.size(), size_t(kInstants) + 1);
+    EXPECT_FALSE(tables.raster.isStill);
+    for (size_t i = 0; i < tables.lens.size(); ++i) {
+        const shader::LensReach& reach = tables.lensReaches[i / shader::kLensSets];
+        EXPECT_NEAR(reach.inverseFocus, 1.0 / 3.0, 1e-6);
+        for (int axis = 0; axis < 2; ++axis) {
+            EXPECT_GE(tables.lens[i][axis + 2], reach.low[axis]);
+            EXPECT_LE(tables.lens[i][axis + 2], reach.high[axis]);
+            EXPECT_NEAR(tables.lens[i][axis], -tables.lens[i][axis + 2] / 3.0, 1e-4);
+        }
+    }
+}
+
+TEST_F(InstantTablesTest, WithALensALastRasterOfTheSameSaysNothing) {
+    world.registry.add(camera, scene::CameraLens{.fStop = 1.0, .focusDistance = 3.0});
+    const ecs::Entity box = addBox({0.0, 0.0, -8.0});
+    request.usesLens = true;
+    const auto hasLast = [&] {
+        const auto run = [&](const RasterRecord* last) {
+            return computeInstantTables(
+                world, request, motion(), extract(), kInstants * shader::kLensSets, last
+            );
+        };
+        setTime(1.0 - kFrameSeconds);
+        const RasterRecord last = run(nullptr).record;
+        setTime(1.0);
+        return run(&last).last.has_value();
+    };
+    EXPECT_FALSE(hasLast());
+    world.registry.add(box, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    EXPECT_TRUE(hasLast());
+}
+
 TEST_F(InstantTablesTest, TheLastRasterShowsWhereItsSurfacesAreNow) {
     moveCamera();
     const ecs::Entity tumbler = addTumbler();
