@@ -10,14 +10,10 @@ const float kLensFilterShare = 0.18f;
 /// Radii below it gain nothing.
 const float kLeastLensFilterPx = 0.5f;
 
-/// Diameter of the circle of confusion, pixels. \param along 1 / depth
-float confusionOf(InstantMotionsRef motions, float along) {
-    vec2 confusion = motions.value.confusion;
-    return 2.0f * abs(confusion.x - confusion.y * along);
-}
-
+/// Diameter of the circle of confusion, pixels.
 float confusionAt(InstantMotionsRef motions, float depth) {
-    return confusionOf(motions, 1.0f / max(depth, kLeastDepth));
+    vec2 confusion = motions.value.confusion;
+    return 2.0f * abs(confusion.x - confusion.y / max(depth, kLeastDepth));
 }
 
 /// How far back towards the pixel the colour is fetched from, as a share of the way over which the

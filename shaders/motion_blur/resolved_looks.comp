@@ -60,8 +60,6 @@ const float kNoiseRampPx = 2.0f;
 // With a lens.
 /// Distance between samples from which pixels have individual sets, which a filter then averages.
 const float kLensNoiseFromPx = 1.0f;
-/// Share of the circle of confusion by which what a block sees may be off one plane all the same.
-const float kToleratedShare = 0.06f;
 /// Reach within which what a block sees counts as in focus and still, pixels.
 const float kStillReachPx = 0.125f;
 /// Way up to which a few samples do.
@@ -146,6 +144,14 @@ void widenBySets(uint instant, vec2 alongs, bool isSky, inout Reach reach) {
     keepInside(reach);
 }
 
+/// How much farther than the middle set's place of the lens another's may move what lies at 1 m.
+float reachOfSets(uint instant) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    LensReach reach = LensReachTable(motions.value.lensReaches).reaches[instant / kLensSets];
+    vec2 place = lensOf(motions, instant).zw;
+    return length(max(reach.high - place, place - reach.low));
+}
+
 uvec2 countBlocks() { return (params.sizePx + kGroupSize - 1u) / kGroupSize; }
 
 BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x) + block.x]; }
@@ -175,17 +181,13 @@ PlaneMap lookAt(
     PlaneMap map =
         mapPlane(motion.instantFromRaster, plane, centreOf(middle), centreOf(block), perspective);
     if (!map.isAffine) return none;
-    float tolerancePx = params.uniformMotionPx;
-    if (kHasLens)
-        tolerancePx =
-            max(tolerancePx,
-                kToleratedShare * confusionOf(InstantMotionsRef(method.motions), plane.along));
+    if (kHasLens) map.pxPerAlong += reachOfSets(instant);
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
             BlockPlane other = getPlane(ivec2(x, y));
             float gap = planeGap(plane, centreOf(middle), other, centreOf(ivec2(x, y)));
             // Written so that NaN is not uniform.
-            bool isOne = other.mover == mover && gap * map.pxPerAlong <= tolerancePx;
+            bool isOne = other.mover == mover && gap * map.pxPerAlong <= params.uniformMotionPx;
             if (!isOne) return none;
         }
     if (kHasLens) {
