@@ -149,7 +149,7 @@ float reachOfSets(uint instant) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LensReach reach = LensReachTable(motions.value.lensReaches).reaches[instant / kLensSets];
     vec2 place = lensOf(motions, instant).zw;
-    return length(max(reach.high - place, place - reach.low));
+    return max(length(max(abs(reach.low), abs(reach.high))) - length(place), 0.0f);
 }
 
 uvec2 countBlocks() { return (params.sizePx + kGroupSize - 1u) / kGroupSize; }
