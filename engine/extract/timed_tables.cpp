@@ -4,6 +4,7 @@
 #include "engine/core/words.h"
 #include "engine/extract/frame_view.h"
 #include "engine/math/transform.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/lens.h"
 
@@ -140,8 +141,10 @@ class Builder {
     void addLens() {
         if (!mRequest.usesLens)
             return;
-        const bool changes =
-            mWorld.registry.find<scene::FocusMotion>(mRequest.camera) || mMotion.mayCameraZoom();
+        const ecs::Registry& registry = mWorld.registry;
+        const bool changes = registry.has<scene::FocusMotion>(mRequest.camera) ||
+                             registry.has<scene::AutoFocus>(mRequest.camera) ||
+                             mMotion.mayCameraZoom();
         const uint32_t last = changes ? kLensIntervals : 0;
         for (uint32_t i = 0; i <= last; ++i) {
             const double s = changes ? double(i) / last : mRequest.exposure.rasterTime;
