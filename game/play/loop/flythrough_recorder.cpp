@@ -21,6 +21,20 @@ constexpr double kWidestDegrees = 179.0;
 constexpr double kWidestFStop = 0.01;
 constexpr double kClosedFStop = 1.0e9;
 
+/// That gives the camera which plays the flight, a copy of the world's first one, a lens of this
+/// radius. \param yFov of the key, radians
+double findFStop(const scene::World& world, double radius, double yFov) {
+    scene::CameraLens played;
+    if (!world.cameras.empty())
+        if (const auto* found = world.registry.find<scene::CameraLens>(world.cameras.front()))
+            played = *found;
+    played.fStop = 1.0;
+    const double widest = scene::computeLensRadius(played, yFov);
+    if (radius == 0.0 || widest == 0.0)
+        return kClosedFStop;
+    return std::clamp(widest / radius, kWidestFStop, kClosedFStop);
+}
+
 flythrough::FlythroughKey
 makeKey(const scene::World& world, const extract::ViewRequest& view, bool hasLens) {
     const double seconds = view.exposure.raster;
@@ -28,18 +42,16 @@ makeKey(const scene::World& world, const extract::ViewRequest& view, bool hasLen
     flythrough::FlythroughKey key;
     key.position = math::dvec3(rigid[3]);
     key.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
-    const double yFov = extract::computePictureYFov(
-        world.registry.get<scene::Camera>(view.camera),
-        scene::yFovAt(world, view.camera, seconds),
-        view
-    );
-    key.fieldOfView = std::min(yFov * 180.0 / std::numbers::pi, kWidestDegrees);
+    const double yFov = scene::yFovAt(world, view.camera, seconds);
+    const double pictureYFov =
+        extract::computePictureYFov(world.registry.get<scene::Camera>(view.camera), yFov, view);
+    key.fieldOfView = std::min(pictureYFov * 180.0 / std::numbers::pi, kWidestDegrees);
     if (hasLens) {
         const scene::CameraLens lens = scene::lensAt(world, view.camera, seconds);
-        const bool isOpen = lens.fStop != 0.0 && lens.blurScale != 0.0;
         key.focusDistance = lens.focusDistance;
-        key.fStop = isOpen ? std::clamp(lens.fStop / lens.blurScale, kWidestFStop, kClosedFStop)
-                           : kClosedFStop;
+        key.fStop = findFStop(
+            world, scene::computeLensRadius(lens, yFov), *key.fieldOfView * std::numbers::pi / 180.0
+        );
     }
     return key;
 }

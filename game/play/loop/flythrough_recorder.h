@@ -22,9 +22,9 @@ class FlythroughRecorder {
 
     void start();
 
-    /// Takes the camera's place at the raster instant, the picture's field of view, and the lens
-    /// where the first camera has one, if the last
-    /// key is long enough ago. Another camera than before is a cut.
+    /// Takes the camera's place at the raster instant, the picture's field of view and, where the
+    /// first camera has a lens, the lens, if the last key is long enough ago. Another camera than
+    /// before is a cut.
     /// \param view at game times that do not fall
     void addFrame(const scene::World& world, const extract::ViewRequest& view);
 

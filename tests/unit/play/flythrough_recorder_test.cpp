@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/camera.h"
 #include "engine/scene/components.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "game/play/loop/flythrough_recorder.h"
 
@@ -77,8 +79,37 @@ TEST_F(Recorder, TheLensIsRecordedWhereTheFirstCameraHasOne) {
     ASSERT_TRUE(flight) << flight.error().message;
     ASSERT_EQ(flight.value().keys.size(), 2u);
     EXPECT_EQ(flight.value().keys[0].focusDistance, 7.0);
-    EXPECT_EQ(flight.value().keys[0].fStop, 4.0);
+    EXPECT_DOUBLE_EQ(*flight.value().keys[0].fStop, 4.0);
     EXPECT_EQ(flight.value().keys[1].fStop, 1.0e9);
+}
+
+TEST_F(Recorder, ThePlayedLensIsAsWideAsTheRecordedOne) {
+    const scene::CameraLens recorded{
+        .fStop = 2.0, .focusDistance = 7.0, .sensorHeight = 0.03, .blurScale = 0.5};
+    mWorld.registry.add(mCameras[0], recorded);
+    mWorld.registry.get<scene::Camera>(mCameras[0]).aspectRatio = 1.125; // twice the picture's
+    mWorld.registry.add(mCameras[1], scene::CameraLens{});
+    const auto play = [&] {
+        mRecorder.start();
+        addFrame(mCameras[0], 0.0);
+        const auto flight = flythrough::readFlythrough(mRecorder.finish(mFolder).value()).value();
+        const ecs::Entity flies = flythrough::addFlythroughCamera(mWorld, flight);
+        mWorld.cameras.pop_back();
+        const scene::CameraLens played = scene::lensAt(mWorld, flies, 0.0);
+        EXPECT_DOUBLE_EQ(played.focusDistance, 7.0);
+        return scene::computeLensRadius(played, scene::yFovAt(mWorld, flies, 0.0));
+    };
+    const double radius = scene::computeLensRadius(recorded, scene::Camera{}.yFov);
+    EXPECT_NEAR(play(), radius, 1e-9 * radius) << "a world without cameras";
+    mWorld.cameras = {mCameras[0]};
+    EXPECT_NEAR(play(), radius, 1e-9 * radius) << "the first one";
+    mWorld.registry.add(mCameras[0], scene::LensOverride{.fStop = 4.0, .blurScale = 2.0});
+    EXPECT_NEAR(play(), radius, 1e-9 * radius) << "seen through a viewer's lens";
+    mWorld.registry.remove<scene::LensOverride>(mCameras[0]);
+    mWorld.cameras = {mCameras[1], mCameras[0]};
+    EXPECT_NEAR(play(), radius, 1e-9 * radius) << "another one";
+    mWorld.registry.get<scene::CameraLens>(mCameras[1]).blurScale = 0.0;
+    EXPECT_EQ(play(), 0.0) << "no F-number opens this one";
 }
 
 TEST_F(Recorder, TheFieldOfViewIsThatOfThePicture) {
