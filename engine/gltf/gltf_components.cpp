@@ -115,10 +115,6 @@ readWaves(GltfContext& context, const tinygltf::Value& object, const std::string
     return waves;
 }
 
-} // namespace
-
-namespace {
-
 ecs::Entity findFocusNode(
     const GltfContext& context,
     const std::vector<ecs::Entity>& entities,
