@@ -2,6 +2,7 @@
 #include "engine/scene/auto_focus.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
@@ -76,6 +77,11 @@ void addStep(const World& world, ecs::Entity camera, const AutoFocus& focus, Foc
     const int64_t step = trail.firstStep + int64_t(trail.inverses.size());
     const double* before = trail.inverses.empty() ? nullptr : &trail.inverses.back();
     const double wanted = findInverse(world, camera, focus, step, before);
+    // What is refused only when a frame is extracted must not stay for ever.
+    if (!validateAutoFocus(focus) || !(wanted > 0.0 && std::isfinite(wanted))) {
+        trail.inverses.push_back(before ? *before : 1.0 / CameraLens{}.focusDistance);
+        return;
+    }
     const auto cut = findNewCut(world, camera, step, trail);
     if (cut)
         trail.cuts.push_back({step, *cut});
@@ -103,11 +109,16 @@ void dropOldSteps(FocusTrail& trail) {
     });
 }
 
-FocusTrail startTrail(int64_t step, bool isReplayed) {
+FocusTrail startTrail(int64_t step, bool isReplayed, const AutoFocus& focus) {
     FocusTrail trail;
     trail.firstStep = step;
     trail.isReplayed = isReplayed;
+    trail.focus = focus;
     return trail;
+}
+
+bool areEqual(const AutoFocus& a, const AutoFocus& b) {
+    return a.target == b.target && a.halfLife == b.halfLife;
 }
 
 /// No component may be added while a view is iterated.
@@ -124,14 +135,14 @@ std::vector<ecs::Entity> listCameras(const World& world) {
 /// Continues the trail where that is possible, else starts one at `start`.
 void runTo(World& world, ecs::Entity camera, int64_t start, int64_t last, bool isReplay) {
     ecs::Registry& registry = world.registry;
+    const AutoFocus focus = registry.get<AutoFocus>(camera);
     FocusTrail* trail = registry.find<FocusTrail>(camera);
     const bool isKept = trail && !trail->inverses.empty() && trail->isReplayed == isReplay;
     const bool goesOn =
-        isReplay ? isKept && trail->firstStep == start
+        isReplay ? isKept && trail->firstStep == start && areEqual(trail->focus, focus)
                  : isKept && last >= trail->firstStep && last - findLastStep(*trail) < kBlockSteps;
     if (!goesOn)
-        trail = &registry.add(camera, startTrail(start, isReplay));
-    const AutoFocus focus = registry.get<AutoFocus>(camera);
+        trail = &registry.add(camera, startTrail(start, isReplay, focus));
     while (trail->inverses.empty() || findLastStep(*trail) < last)
         addStep(world, camera, focus, *trail);
     if (!isReplay)
@@ -174,6 +185,11 @@ void replayAutoFocus(World& world, double until) {
     const int64_t start = std::max<int64_t>(last / kBlockSteps - 1, 0) * kBlockSteps;
     for (const ecs::Entity camera : listCameras(world))
         runTo(world, camera, start, last, true);
+}
+
+void replayAutoFocus(World& world, ecs::Entity camera, const ExposureInterval& exposure) {
+    const double until = ExposureMotion(world, camera, exposure).reach().until;
+    replayAutoFocus(world, std::max(exposure.close, until));
 }
 
 std::optional<double> autoFocusAt(const World& world, ecs::Entity camera, double seconds) {

@@ -9,6 +9,7 @@
 
 #include "engine/core/result.h"
 #include "engine/ecs/entity.h"
+#include "engine/scene/shutter.h"
 #include "engine/scene/world.h"
 
 #include <cstdint>
@@ -41,6 +42,7 @@ struct FocusTrail {
     /// Time of the last CameraCut that was seen.
     double cutSeconds = -std::numeric_limits<double>::infinity();
     bool isReplayed = false; ///< by replayAutoFocus()
+    AutoFocus focus;         ///< of the first step
 };
 
 /// Steps a second of scene time, as many as those of the demos.
@@ -62,9 +64,13 @@ findFocusDistance(const World& world, ecs::Entity camera, ecs::Entity target, do
 void advanceAutoFocus(World& world, double until);
 
 /// The same as if a world whose motion is a function of time had been stepped since time 0, or for
-/// ten to twenty minutes: a frame does not depend on which frames were drawn before. Before time 0
-/// the distance is that of time 0. \param until finite
+/// ten to twenty minutes: a frame does not depend on which frames were drawn before, nor on what
+/// AutoFocus was then. Before time 0 the distance is that of time 0. \param until finite
 void replayAutoFocus(World& world, double until);
+
+/// The same, as far as a frame of `camera` sees the lens, scales of the exposure's blur included.
+/// \param camera alive, with a Camera
+void replayAutoFocus(World& world, ecs::Entity camera, const ExposureInterval& exposure);
 
 /// Focus distance of the camera at `seconds`, metres; nothing where it has no AutoFocus, or the
 /// system did not run. Before the first step in memory, and after the last, that step's.

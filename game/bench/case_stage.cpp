@@ -187,7 +187,8 @@ CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, 
     game::PictureRequest picture = game::makePicture(
         mShot, mShotOptions, makeMethodOptions(drawn.point), mShotOptions.frameTimes.front()
     );
-    scene::replayAutoFocus(mShot.world, picture.frame.view.exposure.close);
+    const extract::ViewRequest& view = picture.frame.view;
+    scene::replayAutoFocus(mShot.world, view.camera, view.exposure);
     picture.frame.wantColor = wantsLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&*mTonemap};

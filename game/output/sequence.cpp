@@ -232,7 +232,8 @@ class Sequence {
   private:
     core::Result<render::FrameResult> drawOnce(double seconds, core::Progress& progress) {
         PictureRequest request = makePicture(*mShot, mOptions.shot, mOptions.method, seconds);
-        scene::replayAutoFocus(mShot->world, request.frame.view.exposure.close);
+        const extract::ViewRequest& view = request.frame.view;
+        scene::replayAutoFocus(mShot->world, view.camera, view.exposure);
         request.frame.intermediates = mOptions.output.aovs;
         request.frame.wantColor = !mOptions.output.displayOut || mOptions.output.isDeep();
         request.frame.wantDisplay = !request.frame.wantColor;

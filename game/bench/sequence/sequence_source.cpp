@@ -98,7 +98,8 @@ class FlightSource : public SequenceSource {
     void advance() override {
         ++mAdvanced;
         SHUTTER_CHECK(mAdvanced <= mOptions.frameTimes.size(), "the flight is over");
-        scene::replayAutoFocus(mShot.world, ownView().exposure.close);
+        const extract::ViewRequest view = ownView();
+        scene::replayAutoFocus(mShot.world, view.camera, view.exposure);
     }
 
     [[nodiscard]] const scene::World& world() const override { return mShot.world; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Autofocus: how it eases, and what it does where there is nothing to focus on.
 #include "engine/scene/auto_focus.h"
+#include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/path.h"
@@ -104,6 +105,67 @@ TEST_F(AutoFocusing, AReplayedFrameDoesNotDependOnTheFramesBeforeIt) {
     EXPECT_EQ(at(0.7), played) << "a session that began at time 0";
     replayAutoFocus(mWorld, -5.0);
     EXPECT_EQ(at(-5.0), 2.0) << "before time 0 nothing eases";
+}
+
+TEST_F(AutoFocusing, AReplayReachesAsFarAsScalesOfTheBlurDo) {
+    move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}});
+    CameraShutter shutter;
+    shutter.mode = ShutterMode::Physical;
+    shutter.exposureSeconds = 0.2;
+    shutter.phase = ShutterPhase::Start;
+    shutter.cameraRotationScale = 2.0;
+    const auto replay = [&](double seconds) {
+        const ExposureInterval exposure = computeExposure(shutter, seconds);
+        replayAutoFocus(mWorld, mCamera, exposure);
+        return ExposureMotion(mWorld, mCamera, exposure).cameraLens(1.0).focusDistance;
+    };
+    const double alone = replay(0.5);
+    replay(1.0);
+    EXPECT_EQ(replay(0.5), alone) << "after a later one";
+    EXPECT_DOUBLE_EQ(at(0.9), alone) << "twice as far as the shutter is open";
+}
+
+TEST_F(AutoFocusing, AReplayBeginsAnewWhereTheAutofocusIsAnother) {
+    move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}});
+    const ecs::Entity other = mWorld.registry.create();
+    mWorld.registry.add(other, LocalTransform{{.translation = {0, 0, -3}}});
+    for (const AutoFocus& changed : {AutoFocus{mTarget, 0.0}, AutoFocus{other, kHalfLife}}) {
+        mWorld.registry.add(mCamera, AutoFocus{mTarget, kHalfLife});
+        replayAutoFocus(mWorld, 1.0);
+        mWorld.registry.add(mCamera, changed);
+        replayAutoFocus(mWorld, 1.0);
+        const double after = at(1.0);
+        mWorld.registry.remove<FocusTrail>(mCamera);
+        replayAutoFocus(mWorld, 1.0);
+        EXPECT_EQ(after, at(1.0)) << changed.halfLife;
+    }
+}
+
+TEST_F(AutoFocusing, WhatIsNotValidDoesNotStay) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {nan, -1.0}) {
+        mWorld.registry.get<AutoFocus>(mCamera).halfLife = kHalfLife;
+        mWorld.registry.remove<FocusTrail>(mCamera);
+        advanceAutoFocus(mWorld, 0.0);
+        mWorld.registry.get<AutoFocus>(mCamera).halfLife = bad;
+        advance(0.0, 1.0, 60.0);
+        EXPECT_EQ(at(1.0), 4.0) << bad;
+        mWorld.registry.get<AutoFocus>(mCamera).halfLife = kHalfLife;
+        put({0, 0, -2});
+        advance(1.0, 9.0, 60.0);
+        EXPECT_NEAR(at(9.0), 2.0, 1e-9) << bad;
+        put({0, 0, -4});
+    }
+    for (const double bad : {0.0, nan, -1.0}) {
+        mWorld.registry.remove<FocusTrail>(mCamera);
+        mWorld.registry.get<CameraLens>(mCamera).focusDistance = bad;
+        put({0, 0, 1});
+        advanceAutoFocus(mWorld, 0.0);
+        EXPECT_EQ(at(0.0), CameraLens{}.focusDistance) << bad;
+        put({0, 0, -4});
+        advance(0.0, 9.0, 60.0);
+        EXPECT_NEAR(at(9.0), 4.0, 1e-9) << bad;
+    }
 }
 
 TEST_F(AutoFocusing, ATargetBehindTheCameraOrBeforeTheNearPlaneLeavesTheDistance) {
