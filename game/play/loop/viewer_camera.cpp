@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/viewer_camera.h"
 
+#include "engine/scene/auto_focus.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/path.h"
 
@@ -26,6 +28,20 @@ math::Transform placementAt(const scene::World& world, ecs::Entity entity, doubl
     return placement;
 }
 
+/// As the lens is at `seconds`: keys are another camera's, only autofocus goes on.
+void copyLens(scene::World& world, ecs::Entity from, ecs::Entity to, double seconds) {
+    const ecs::Registry& registry = world.registry;
+    const auto* keys = registry.find<scene::FocusMotion>(from);
+    if (!keys && !registry.has<scene::CameraLens>(from) && !registry.has<scene::AutoFocus>(from))
+        return;
+    const bool isKeyed = keys && !keys->keys.empty() && keys->keys.front().focusDistance;
+    world.registry.add(to, scene::lensAt(world, from, seconds));
+    if (const auto* found = registry.find<scene::AutoFocus>(from); found && !isKeyed) {
+        const scene::AutoFocus focus = *found;
+        world.registry.add(to, focus);
+    }
+}
+
 bool sameWay(const math::Transform& a, const math::Transform& b) {
     return a.translation == b.translation && a.rotation == b.rotation;
 }
@@ -38,10 +54,7 @@ ViewerCamera::ViewerCamera(scene::World& world, ecs::Entity like, double distanc
     mEntity = world.registry.create();
     world.registry.add(mEntity, camera);
     world.registry.get<scene::Camera>(mEntity).name = "viewer";
-    if (const auto* found = world.registry.find<scene::CameraLens>(like)) {
-        const scene::CameraLens lens = *found;
-        world.registry.add(mEntity, lens);
-    }
+    copyLens(world, like, mEntity, seconds);
     world.registry.add(mEntity, scene::LocalTransform{placement});
     mOrbit = app::makeOrbit(placement, distance);
     mFly = app::makeFly(placement, kFlyShare * distance);

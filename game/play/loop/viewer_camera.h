@@ -13,7 +13,7 @@ enum class ViewerMode : uint8_t { Orbit, Fly };
 
 class ViewerCamera {
   public:
-    /// Creates its entity as a copy of `like`, placed where that is at `seconds`.
+    /// Creates its entity as a copy of `like`, placed and focused as that is at `seconds`.
     /// \param distance of what is looked at, metres, above 0
     ViewerCamera(scene::World& world, ecs::Entity like, double distance, double seconds);
 
