@@ -151,6 +151,21 @@ class Session(PlayCase):
         self.assertGreater(set(passes_near), set(passes))
         self.assertLess(abs(middle - pinhole).mean(), 0.5 * abs(near - pinhole).mean())
 
+    def test_an_option_of_the_lens_that_changes_nothing_says_why(self):
+        (self.folder / "settings.json").write_text('{"version": 1}', encoding="utf-8")
+
+        def warn(method, *options):
+            result = self.run_shutter(
+                ["gallery", "--size", "64x36", "--frames", "1", "--assets", ASSETS, "--settings",
+                 "settings.json", "--method", method, *options], display=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return result.stderr
+
+        self.assertIn("--focus changes nothing: the camera is a pinhole", warn("resolved", "--focus", "3"))
+        self.assertIn("--fstop changes nothing: gather draws pinholes", warn("gather", "--fstop", "2"))
+        self.assertNotIn("changes nothing", warn("resolved", "--fstop", "2", "--focus", "3"))
+        self.assertNotIn("changes nothing", warn("gather"))
+
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
         self.play("spin", script, display=False)

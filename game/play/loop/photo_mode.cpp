@@ -44,13 +44,15 @@ void copyComponent(scene::World& world, ecs::Entity from, ecs::Entity to) {
     }
 }
 
-/// With what zooms and focuses it, so that an exposure shows that, too.
+/// With what zooms and focuses it, so that an exposure shows that, too, and what the viewer
+/// changes.
 void copyLens(scene::World& world, ecs::Entity from, ecs::Entity to) {
     copyComponent<scene::LensMotion>(world, from, to);
     copyComponent<scene::CameraLens>(world, from, to);
     copyComponent<scene::FocusMotion>(world, from, to);
     copyComponent<scene::AutoFocus>(world, from, to);
     copyComponent<scene::FocusTrail>(world, from, to);
+    copyComponent<scene::LensOverride>(world, from, to);
 }
 
 bool isSameView(const app::FlyView& a, const app::FlyView& b) {

@@ -140,6 +140,7 @@ core::Status PlayLoop::openStage() {
         mStage = mWatch->wrap(std::move(mStage));
     mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
     mScreen.setTitle("Shutter: " + mStage->title());
+    warnOfPinhole();
     return {};
 }
 
@@ -368,6 +369,7 @@ void PlayLoop::turnPhotoMode(bool on) {
         return;
     }
     mClock.setPaused(true);
+    overrideLens(); // which the photo's camera takes over
     if (!mStage->holdsCamera())
         mPhotoCamera.take(mStage->world(), mStage->camera(), mExposure.raster);
     if (!traces)
@@ -378,13 +380,17 @@ void PlayLoop::turnPhotoMode(bool on) {
         );
 }
 
-void PlayLoop::prepareLens() {
+void PlayLoop::overrideLens() {
     ecs::Registry& registry = mStage->world().registry;
     static const scene::LensOverride kNone;
     if (!core::areEqual(scene::listOverrideRows(), mSettings.lens, kNone))
         registry.add(camera(), mSettings.lens);
     else
         registry.remove<scene::LensOverride>(camera());
+}
+
+void PlayLoop::prepareLens() {
+    overrideLens();
     scene::advanceAutoFocus(mStage->world(), mExposure.close);
 }
 
@@ -395,17 +401,37 @@ void PlayLoop::focusOnMiddle() {
         distance.value_or(scene::kFarthestFocus), scene::kNearestFocus, scene::kFarthestFocus
     );
     mMessage = distance ? fmt::format("focused at {:.4g} m", *distance) : "focused at infinity";
+    if (const std::string why = explainPinhole(); !why.empty())
+        mMessage += ", but " + why;
+}
+
+std::string PlayLoop::explainPinhole() const {
+    const scene::World& world = mStage->world();
     if (world.registry.get<scene::Camera>(camera()).kind == scene::CameraKind::Orthographic)
-        mMessage += ", but an orthographic camera has no lens";
-    else if (mSettings.lens.blurScale == 0.0)
-        mMessage += ", but depth of field is off (panel, F1)";
-    else if (!scene::hasLens(world, camera()) && mSettings.lens.fStop == 0.0)
-        mMessage += ", but the camera is a pinhole: choose an F-number (panel, F1)";
-    else if (const auto method = findMethod(chooseSettings().method);
-             method && !method.value()->hasLens)
-        mMessage += fmt::format(
-            ", but {} draws pinholes: choose {}", method.value()->name, listLensMethods("or")
+        return "an orthographic camera has no lens";
+    if (mSettings.lens.blurScale == 0.0)
+        return "depth of field is off (panel, F1)";
+    if (!scene::hasLens(world, camera()) && mSettings.lens.fStop == 0.0)
+        return "the camera is a pinhole: choose an F-number (panel, F1)";
+    const auto method = findMethod(chooseSettings().method);
+    if (method && !method.value()->hasLens)
+        return fmt::format(
+            "{} draws pinholes: choose {}", method.value()->name, listLensMethods("or")
         );
+    return {};
+}
+
+void PlayLoop::warnOfPinhole() {
+    const bool opens = mOptions.fStop && *mOptions.fStop != 0.0;
+    if (!opens && !mOptions.focusDistance)
+        return;
+    const std::string why = explainPinhole();
+    if (why.empty())
+        return;
+    const std::string warning =
+        fmt::format("{} changes nothing: {}", opens ? "--fstop" : "--focus", why);
+    core::logWarning("{}", warning);
+    mMessage += (mMessage.empty() ? "" : "; ") + warning;
 }
 
 ecs::Entity PlayLoop::camera() const {

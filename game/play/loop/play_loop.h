@@ -68,10 +68,16 @@ class PlayLoop {
     void chooseExposure(double duration);
     void replaceMissingMethods();
     void turnPhotoMode(bool on);
-    /// Gives the camera the player's lens, and takes it to where it focuses by now.
+    /// Gives the camera the player's lens.
+    void overrideLens();
+    /// The same, and takes it to where it focuses by now.
     void prepareLens();
     /// Focuses on what was in the middle of the last picture.
     void focusOnMiddle();
+    /// Why the next picture has no depth of field; empty: it has.
+    [[nodiscard]] std::string explainPinhole() const;
+    /// Tells a player who named a lens that it has no effect.
+    void warnOfPinhole();
     /// The camera that is looked through: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;
     /// Asks for the next picture as a file.

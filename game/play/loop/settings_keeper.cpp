@@ -30,6 +30,8 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.lens.fStop = *options.fStop;
         if (*options.fStop == 0.0)
             settings.lens.blurScale = 0.0;
+        else if (settings.lens.blurScale == 0.0)
+            settings.lens.blurScale = scene::LensOverride().blurScale;
     }
     if (options.focusDistance)
         settings.lens.focusDistance = *options.focusDistance;

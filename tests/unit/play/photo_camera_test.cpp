@@ -78,6 +78,13 @@ TEST_F(PhotoFlight, ItHasTheLensOfTheCameraItHangsOnAndWhatFocusesIt) {
     EXPECT_EQ(scene::lensAt(world, camera.entity(), kNow).focusDistance, focused);
 }
 
+TEST_F(PhotoFlight, ItHasTheViewersLensAtOnce) {
+    world.registry.add(stage, scene::LensOverride{.fStop = 2.8, .focusDistance = 3.0});
+    camera.take(world, stage, kNow);
+    EXPECT_TRUE(scene::hasLens(world, camera.entity()));
+    EXPECT_EQ(scene::lensAt(world, camera.entity(), kNow).focusDistance, 3.0);
+}
+
 TEST_F(PhotoFlight, ItFliesAheadAndKeepsTheBlurOfTheCameraItHangsOn) {
     camera.take(world, stage, kNow);
     const dvec3 ahead = -dvec3(at(stage, kNow)[2]);
