@@ -2,13 +2,13 @@
 #include "engine/extract/defocus.h"
 
 #include "engine/extract/frame_view.h"
+#include "engine/extract/swept_scene.h"
 #include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace shutter::extract {
 
@@ -17,23 +17,31 @@ namespace {
 using math::dvec3;
 using math::dvec4;
 
-using Polygon = std::vector<dvec4>; ///< its corners, clip space
-
 constexpr double kFarthestDepth = std::numeric_limits<double>::infinity();
+/// Shutter times at which the picture is looked at.
+constexpr std::array kTimes{0.0, 0.25, 0.5, 0.75, 1.0};
 
-/// The part of a convex polygon on the side of a plane where its product with points is not
-/// negative.
+/// Convex, in clip space. A face of a box gains a corner at each of the picture's four sides.
+struct Polygon {
+    std::array<dvec4, 8> corners;
+    size_t count = 0;
+
+    void add(const dvec4& corner) { corners[count++] = corner; }
+};
+
+/// The part of a polygon on the side of a plane where its product with points is not negative.
 Polygon clip(const Polygon& polygon, const dvec4& plane) {
     Polygon inside;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const dvec4& from = polygon[i];
-        const dvec4& to = polygon[(i + 1) % polygon.size()];
+    for (size_t i = 0; i < polygon.count; ++i) {
+        const dvec4& from = polygon.corners[i];
+        const dvec4& to = polygon.corners[(i + 1) % polygon.count];
         const double a = glm::dot(plane, from);
         const double b = glm::dot(plane, to);
-        if (a >= 0.0)
-            inside.push_back(from);
-        if ((a >= 0.0) != (b >= 0.0))
-            inside.push_back(glm::mix(from, to, a / (a - b)));
+        // What lies flat on the plane may round to more crossings than two.
+        if (a >= 0.0 && inside.count < inside.corners.size())
+            inside.add(from);
+        if ((a >= 0.0) != (b >= 0.0) && inside.count < inside.corners.size())
+            inside.add(glm::mix(from, to, a / (a - b)));
     }
     return inside;
 }
@@ -48,8 +56,8 @@ double nearestInSight(Polygon face) {
             face = clip(face, plane);
         }
     double nearest = kFarthestDepth;
-    for (const dvec4& corner : face)
-        nearest = std::min(nearest, corner.w);
+    for (size_t i = 0; i < face.count; ++i)
+        nearest = std::min(nearest, face.corners[i].w);
     return nearest;
 }
 
@@ -64,41 +72,41 @@ bool contains(const math::Bounds& bounds, const dvec3& point) {
            glm::all(glm::lessThanEqual(point, bounds.max));
 }
 
-/// \return infinity: no part of the box is in sight; 0: the camera is in it
-double nearestInSight(const math::dmat4& clipFromObject, const math::Bounds& bounds) {
+/// Whether the picture shows a part of the box that is nearer than a depth above 0, or the camera
+/// is in the box.
+bool isInSightBefore(const math::dmat4& clipFromObject, const math::Bounds& bounds, double depth) {
     std::array<dvec4, 8> corners;
-    for (size_t i = 0; i < corners.size(); ++i)
+    bool isFar = true;
+    for (size_t i = 0; i < corners.size(); ++i) {
         corners[i] = clipFromObject * dvec4(
                                           i & 1 ? bounds.max.x : bounds.min.x,
                                           i & 2 ? bounds.max.y : bounds.min.y,
                                           i & 4 ? bounds.max.z : bounds.min.z,
                                           1.0
                                       );
+        isFar = isFar && corners[i].w >= depth;
+    }
+    if (isFar)
+        return false;
     if (contains(bounds, findEye(clipFromObject)))
-        return 0.0;
-    double nearest = kFarthestDepth;
+        return true;
     constexpr std::array<std::array<size_t, 4>, 6> kFaces{
         {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
-    for (const auto& face : kFaces)
-        nearest = std::min(
-            nearest,
-            nearestInSight({corners[face[0]], corners[face[1]], corners[face[2]], corners[face[3]]})
-        );
-    return nearest;
+    for (const auto& face : kFaces) {
+        Polygon polygon;
+        for (const size_t corner : face)
+            polygon.add(corners[corner]);
+        if (nearestInSight(polygon) < depth)
+            return true;
+    }
+    return false;
 }
 
 /// What the lens is to the picture at a shutter time.
 struct Lens {
-    scene::CameraLens lens;
-    double radius = 0.0; ///< of its longer half axis, metres
-    double pixelsPerUnit = 0.0;
     math::dmat4 clipFromWorld{1.0};
-
-    [[nodiscard]] bool spreads(double depth) const {
-        return !(
-            scene::computeConfusionDiameter(lens, radius, depth, pixelsPerUnit) <= kLeastDefocusPx
-        );
-    }
+    bool spreadsFar = false;   ///< what is infinitely far away
+    double nearestSharp = 0.0; ///< what is nearer it spreads over more than kLeastDefocusPx, metres
 };
 
 Lens makeLens(
@@ -110,12 +118,62 @@ Lens makeLens(
     const auto& camera = world.registry.get<scene::Camera>(view.camera);
     const double yFov = motion.cameraYFov(s);
     Lens lens;
-    lens.lens = motion.cameraLens(s);
-    lens.radius = scene::computeLensRadius(lens.lens, yFov) * std::max(lens.lens.squeeze, 1.0);
-    lens.pixelsPerUnit = view.height / (2.0 * std::abs(computeHalfExtents(camera, yFov, view).y));
     lens.clipFromWorld =
         makeProjection(camera, yFov, view) * glm::inverse(motion.worldFromCamera(s));
+    const scene::CameraLens& opened = motion.cameraLens(s);
+    const double radius = scene::computeLensRadius(opened, yFov) * std::max(opened.squeeze, 1.0);
+    if (radius == 0.0)
+        return lens;
+    const double pixelsPerUnit =
+        view.height / (2.0 * std::abs(computeHalfExtents(camera, yFov, view).y));
+    lens.spreadsFar =
+        !(scene::computeConfusionDiameter(opened, radius, kFarthestDepth, pixelsPerUnit) <=
+          kLeastDefocusPx);
+    lens.nearestSharp =
+        1.0 / (1.0 / opened.focusDistance + kLeastDefocusPx / (2.0 * pixelsPerUnit * radius));
     return lens;
+}
+
+/// The view at kTimes.
+struct Views {
+    std::array<Lens, kTimes.size()> lenses;
+    bool areOne = true; ///< the camera stands still
+
+    /// The lens that leaves least in focus, of a camera that stands still.
+    [[nodiscard]] const Lens& widest() const {
+        return *std::max_element(lenses.begin(), lenses.end(), [](const Lens& a, const Lens& b) {
+            return a.nearestSharp < b.nearestSharp;
+        });
+    }
+};
+
+bool isInSight(const Lens& lens, const math::dmat4& worldFromObject, const math::Bounds& bounds) {
+    return lens.nearestSharp > 0.0 &&
+           isInSightBefore(lens.clipFromWorld * worldFromObject, bounds, lens.nearestSharp);
+}
+
+/// Whether a row is spread that is nearer than what is in focus.
+bool isSpread(
+    const Views& views,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame,
+    const SceneLayout& layout,
+    uint32_t row
+) {
+    const math::Bounds bounds = findExposureBounds(frame, layout, row);
+    const ecs::Entity entity = frame.entityHandles[row];
+    if (!motion.mayObjectMove(entity)) {
+        const math::dmat4& place = frame.worldFromObject[row];
+        if (views.areOne)
+            return isInSight(views.widest(), place, bounds);
+        return std::any_of(views.lenses.begin(), views.lenses.end(), [&](const Lens& lens) {
+            return isInSight(lens, place, bounds);
+        });
+    }
+    for (size_t i = 0; i < kTimes.size(); ++i)
+        if (isInSight(views.lenses[i], motion.worldFromObject(entity, kTimes[i]), bounds))
+            return true;
+    return false;
 }
 
 } // namespace
@@ -129,20 +187,17 @@ bool isDefocused(
 ) {
     if (!view.usesLens)
         return false;
-    for (const double s : {0.0, 0.5, 1.0}) {
-        const Lens lens = makeLens(world, view, motion, s);
-        if (lens.radius == 0.0)
-            continue;
-        if (lens.spreads(kFarthestDepth))
+    Views views;
+    for (size_t i = 0; i < kTimes.size(); ++i) {
+        const Lens lens = makeLens(world, view, motion, kTimes[i]);
+        if (lens.spreadsFar)
             return true;
-        for (uint32_t row = 0; row < frame.entityHandles.size(); ++row) {
-            const math::dmat4 worldFromObject = motion.worldFromObject(frame.entityHandles[row], s);
-            const math::Bounds& bounds = findRowBounds(frame, layout, row);
-            const double nearest = nearestInSight(lens.clipFromWorld * worldFromObject, bounds);
-            if (nearest < kFarthestDepth && lens.spreads(nearest))
-                return true;
-        }
+        views.lenses[i] = lens;
+        views.areOne = views.areOne && lens.clipFromWorld == views.lenses[0].clipFromWorld;
     }
+    for (uint32_t row = 0; row < frame.worldFromObject.size(); ++row)
+        if (isSpread(views, motion, frame, layout, row))
+            return true;
     return false;
 }
 

@@ -12,8 +12,8 @@ inline constexpr double kLeastDefocusPx = 0.5;
 
 /// Whether the lens may spread something in the picture over more than kLeastDefocusPx: what lies
 /// in the bounds of an entity that is drawn, where these are in sight, or infinitely far away.
-/// False without ViewRequest::usesLens. A room whose bounds hold the camera counts as at the near
-/// plane. \param motion of the view's exposure
+/// False without ViewRequest::usesLens. Bounds that hold the camera count as touching it: any open
+/// lens spreads them. \param motion of the view's exposure
 [[nodiscard]] bool isDefocused(
     const scene::World& world,
     const ViewRequest& view,

@@ -22,19 +22,6 @@ constexpr size_t kMostSweptMovers = 64;
 /// Nearest depth at which a box has corners in the picture, metres.
 constexpr double kLeastBoxDepth = 1.0e-4;
 
-math::Bounds findExposureBounds(
-    const ExtractedFrame& frame,
-    const SceneLayout& layout,
-    const DeformedEntity* shape,
-    uint32_t row
-) {
-    math::Bounds bounds = findRowBounds(frame, layout, row);
-    if (shape && shape->changes)
-        for (const scene::Deformation* pose : {&shape->open, &shape->close})
-            bounds.add(scene::computeDeformedBounds(*shape->reach, *pose));
-    return bounds;
-}
-
 /// How far a vertex of a shape goes at most from shutter open to close in its own space, to within
 /// a factor of two, metres.
 double measureDeformation(const DeformedEntity& shape) {
@@ -55,6 +42,16 @@ double measureFocalLength(const dmat4& picture) {
 }
 
 } // namespace
+
+math::Bounds
+findExposureBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row) {
+    const DeformedEntity* const shape = findDeformed(frame, row);
+    math::Bounds bounds = findRowBounds(frame, layout, row);
+    if (shape && shape->changes)
+        for (const scene::Deformation* pose : {&shape->open, &shape->close})
+            bounds.add(scene::computeDeformedBounds(*shape->reach, *pose));
+    return bounds;
+}
 
 void SweptBox::spread() {
     least = dvec2(-kFar);
@@ -94,7 +91,7 @@ bool SweptScene::hasGeometry(uint32_t row, bool isBlended) const {
 
 SweptBox SweptScene::sweep(uint32_t row) const {
     const DeformedEntity* const shape = findDeformed(frame, row);
-    const math::Bounds bounds = findExposureBounds(frame, layout, shape, row);
+    const math::Bounds bounds = findExposureBounds(frame, layout, row);
     const ecs::Entity entity = frame.entityHandles[row];
     const bool isStill = !motion.mayObjectMove(entity);
     SweptBox box;

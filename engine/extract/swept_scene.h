@@ -15,6 +15,11 @@
 
 namespace shutter::extract {
 
+/// Object space: of a row's mesh as it is when the shutter opens and closes and at the raster
+/// instant.
+[[nodiscard]] math::Bounds
+findExposureBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row);
+
 /// Where an entity is in the picture in the course of the exposure.
 struct SweptBox {
     math::dvec2 least{std::numeric_limits<double>::infinity()}; ///< pixels

@@ -211,9 +211,11 @@ core::Status Renderer::submitFrame(
         return extracted.error();
     extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
-    facts.isDefocused = extract::isDefocused(
-        world, request.view, mExtractor.view().motion(), frame, mScene.layout()
-    );
+    // Only effects ask, and none of a picture of one instant.
+    if (!effects.empty() && !request.view.instant)
+        facts.isDefocused = extract::isDefocused(
+            world, request.view, mExtractor.view().motion(), frame, mScene.layout()
+        );
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;

@@ -65,6 +65,33 @@ TEST_F(DefocusTest, WhatComesNearWithinTheExposureCounts) {
     EXPECT_TRUE(isDefocusedBy(0.3));
 }
 
+TEST_F(DefocusTest, WhatRushesByWithinTheExposureCounts) {
+    // In sight when a quarter of the exposure is over, its front at 1.5 m.
+    const ecs::Entity box = addBox({10.0, 0.0, -2.5});
+    EXPECT_FALSE(isDefocusedBy(0.2));
+    world.registry.add(box, scene::LinearVelocity{{-40.0, 0.0, 0.0}});
+    EXPECT_TRUE(isDefocusedBy(0.2));
+}
+
+TEST_F(DefocusTest, WhatDeformsCountsWithWhereItIsAtTheExposuresEnds) {
+    // It reaches 2 m further to the camera when the shutter opens; the raster is at the end.
+    scene::Primitive point;
+    point.positions = {{0.0f, 0.0f, 1.0f}};
+    point.morphTargets.emplace_back().positions = {{0.0f, 0.0f, 2.0f}};
+    layout.geometries[0].vertexCount = 1;
+    layout.reaches.push_back(scene::computePoseReach({&point, 1}));
+    scene::WeightChannel channel;
+    channel.targetCount = 1;
+    channel.times = {0.0f, 1.0f};
+    channel.values = {1.0f, 0.0f};
+    world.assets.clips.push_back({"", 1.0, {}, {channel}});
+    const ecs::Entity box = addBox({0.0, 0.0, -5.0});
+    EXPECT_FALSE(isDefocusedBy(0.2));
+    world.registry.add(box, scene::MorphWeights{{1.0f}, {{0, 0}}});
+    EXPECT_TRUE(isDefocusedBy(0.2));
+    EXPECT_FALSE(isDefocusedBy(0.1));
+}
+
 TEST_F(DefocusTest, APinholeSpreadsNothing) {
     addBox({0.0, 0.0, 0.5});
     EXPECT_FALSE(isDefocused(world, request, motion(), extract(), layout));
