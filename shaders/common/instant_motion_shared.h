@@ -60,8 +60,9 @@ struct InstantMotions {
     vec2 confusion;
     uint isPerspective; // 1: the camera is; 0: orthographic
     uint padding0;
-    uvec2
-        lensReaches; // address of LensReach[]: one per sample, and one of all. 0: there is no lens
+    // Address of LensReach[]: one per sample, and one of all, with the focus of the one in the
+    // middle. 0: there is no lens.
+    uvec2 lensReaches;
 };
 
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.

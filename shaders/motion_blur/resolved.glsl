@@ -72,11 +72,13 @@ vec4 lensOf(InstantMotionsRef motions, uint instant) {
 /// Pixels, at a depth.
 vec2 lensShift(vec4 lens, float depth) { return lens.xy + lens.zw / max(depth, kLeastDepth); }
 
-/// Least and greatest shift that the places of a sample have between two depths, pixels.
-/// \param sample_ the number of samples: those of all
-/// \param alongs 1 / depth
-vec4 lensShifts(InstantMotionsRef motions, uint sample_, vec2 alongs) {
-    LensReach reach = LensReachTable(motions.value.lensReaches).reaches[sample_];
+/// Where the places of the lens lie that a sample is taken at; of the number of samples: of all.
+LensReach reachOf(InstantMotionsRef motions, uint sample_) {
+    return LensReachTable(motions.value.lensReaches).reaches[sample_];
+}
+
+/// Least and greatest shift that such places have between two depths, pixels. \param alongs 1 / depth
+vec4 lensShifts(LensReach reach, vec2 alongs) {
     vec4 a = vec4(reach.low, reach.high) * (alongs.x - reach.inverseFocus);
     vec4 b = vec4(reach.low, reach.high) * (alongs.y - reach.inverseFocus);
     return vec4(min(min(a.xy, a.zw), min(b.xy, b.zw)), max(max(a.xy, a.zw), max(b.xy, b.zw)));

@@ -80,7 +80,8 @@ void addMotion(
     }
     if (lensSample != kNoSample) {
         vec2 alongs = extent.key == kSkyKey ? vec2(0.0f) : alongsBetween(depths);
-        vec4 shifts = lensShifts(InstantMotionsRef(method.motions), lensSample, alongs);
+        vec4 shifts =
+            lensShifts(reachOf(InstantMotionsRef(method.motions), lensSample), alongs);
         low += shifts.xy;
         high += shifts.zw;
     }
@@ -124,7 +125,11 @@ void addSample(
     InstantMotion motion = InstantMotionTable(layer.motions)
                                .motions[mover * (method.instantCount / kLensSets) + sample_];
     addMotion(extent, motion, first, sample_, perspective, box);
-    addMotion(extent, motion, first + kLensSets - 1u, sample_, perspective, box);
+    // Whatever part of the exposure its last set belongs to.
+    uint last = first + kLensSets - 1u;
+    uint parts = partsPerInstant(method);
+    if (partOf(last, parts) != partOf(first, parts))
+        addMotion(extent, motion, last, sample_, perspective, box);
 }
 
 #endif

@@ -106,10 +106,13 @@ struct Reach {
     vec2 high;
 };
 
-Reach findReach(vec4 rasterFromInstant[3], vec2 first, vec2 alongs, bool perspective) {
+/// \param corners of the block at the instant, or beyond it, pixels: x and y least and greatest
+Reach findReach(vec4 rasterFromInstant[3], vec4 corners, vec2 alongs, bool perspective) {
     Reach reach = Reach(true, vec2(3.0e38f), vec2(-3.0e38f));
     for (uint corner = 0u; corner < 4u; ++corner) {
-        vec2 x = first + float(kGroupSize) * vec2(corner & 1u, corner >> 1u);
+        vec2 x = vec2(
+            (corner & 1u) != 0u ? corners.z : corners.x, (corner & 2u) != 0u ? corners.w : corners.y
+        );
         PixelRay ray = findRay(rasterFromInstant, x, perspective);
         for (uint end = 0u; end < 2u; ++end) {
             vec3 point = ray.base + ray.slope * alongs[end];
@@ -131,23 +134,28 @@ void keepInside(inout Reach reach) {
     reach.high = clamp(reach.high, vec2(0.0f), last);
 }
 
-/// From where the block looks by the middle set to where it does by any.
-void widenBySets(uint instant, vec2 alongs, bool isSky, inout Reach reach) {
+/// Where the block is at the instant, as the middle set sees it, and where it is as any set does of what
+/// lies between two depths at the instant, pixels: x and y least and greatest.
+vec4 cornersOf(ivec2 block, uint instant, vec2 alongs) {
+    vec2 first = vec2(block) * float(kGroupSize);
+    vec4 corners = vec4(first, first + float(kGroupSize));
+    if (!kHasLens) return corners;
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    if (isSky) alongs = vec2(0.0f);
-    vec4 shifts = lensShifts(motions, instant / kLensSets, alongs);
+    LensReach reach = reachOf(motions, instant / kLensSets);
     vec4 lens = lensOf(motions, instant);
-    vec2 a = lens.xy + lens.zw * alongs.x;
-    vec2 b = lens.xy + lens.zw * alongs.y;
-    reach.low -= max(shifts.zw - max(a, b), 0.0f);
-    reach.high += max(min(a, b) - shifts.xy, 0.0f);
-    keepInside(reach);
+    vec4 margins = vec4(0.0f);
+    for (uint end = 0u; end < 2u; ++end) {
+        vec2 own = lens.xy + lens.zw * alongs[end];
+        vec4 others = lensShifts(reach, vec2(alongs[end]));
+        margins = vec4(min(margins.xy, own - others.zw), max(margins.zw, own - others.xy));
+    }
+    return corners + margins;
 }
 
 /// How much farther than the middle set's place of the lens another's may move what lies at 1 m.
 float reachOfSets(uint instant) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    LensReach reach = LensReachTable(motions.value.lensReaches).reaches[instant / kLensSets];
+    LensReach reach = reachOf(motions, instant / kLensSets);
     vec2 place = lensOf(motions, instant).zw;
     return max(length(max(abs(reach.low), abs(reach.high))) - length(place), 0.0f);
 }
@@ -166,9 +174,9 @@ PlaneMap lookAt(
     none.isAffine = false;
     if (motion.instantFromRaster[2] == vec4(0.0f)) return none;
     Reach reach = findReach(
-        motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongs, perspective
+        motion.rasterFromInstant, cornersOf(block, instant, alongs), alongs, perspective
     );
-    if (kHasLens) widenBySets(instant, alongs, false, reach);
+    if (kHasLens) keepInside(reach);
     bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&
                     all(lessThan(reach.high, vec2(params.sizePx)));
     if (!reach.isInFront || !isInside) return none;
@@ -211,13 +219,13 @@ bool isShown(
     // visible.
     if ((getPlane(block).keys & bit) != 0u) return true;
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
+    vec2 alongs = alongsOf(candidate, perspective);
+    vec2 lensAlongs = candidate.key == kSkyKey ? vec2(0.0f) : alongs;
     Reach reach = findReach(
-        motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongsOf(candidate, perspective),
-        perspective
+        motion.rasterFromInstant, cornersOf(block, instant, lensAlongs), alongs, perspective
     );
     if (!reach.isInFront) return true;
-    if (kHasLens)
-        widenBySets(instant, alongsOf(candidate, perspective), candidate.key == kSkyKey, reach);
+    if (kHasLens) keepInside(reach);
     vec2 size = vec2(params.sizePx);
     if (any(lessThan(reach.high, vec2(0.0f))) || any(greaterThanEqual(reach.low, size)))
         return false;
@@ -274,7 +282,7 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane
         float way = 0.0f;
         for (uint i = 0u; i < kWayInstants; ++i) {
             uint instant = i * (method.instantCount - 1u) / (kWayInstants - 1u);
-            InstantMotion motion = motionAt(method, kHasLens, layer, candidate.mover, instant);
+            InstantMotion motion = motionAt(method, false, layer, candidate.mover, instant);
             if (motion.rasterFromInstant[2] == vec4(0.0f)) return kFarAway;
             PixelRay ray = findRay(motion.rasterFromInstant, centreOf(block), perspective);
             vec2 place = placeOn(ray, 0.5f * (alongs.x + alongs.y), perspective);
@@ -306,22 +314,25 @@ struct BlockSearch {
 /// From a place of the block to where it looks in the course of the exposure, at a few instants, by all
 /// places of the lens: bounds, x and y least and greatest.
 vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
-    const uint kTimes = 3u;
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     uint samples = params.sampleCount;
-    vec4 bounds = vec4(kFarAway, kFarAway, -kFarAway, -kFarAway);
-    for (uint i = 0u; i < kTimes; ++i) {
-        uint sample_ = i * (samples - 1u) / (kTimes - 1u);
+    LensReach reach = reachOf(motions, samples);
+    float lensAlong = mover == kSkyMover ? 0.0f : along;
+    vec4 bounds = vec4(0.0f);
+    for (uint i = 0u; i < kWayInstants; ++i) {
+        uint sample_ = i * (samples - 1u) / (kWayInstants - 1u);
         InstantMotion motion =
             InstantMotionTable(search.layer.motions).motions[mover * samples + sample_];
         if (motion.rasterFromInstant[2] == vec4(0.0f))
             return vec4(-kFarAway, -kFarAway, kFarAway, kFarAway);
         PixelRay ray = findRay(motion.rasterFromInstant, x, search.perspective);
         vec2 from = placeOn(ray, along, search.perspective) - x;
-        bounds = vec4(min(bounds.xy, from), max(bounds.zw, from));
+        // A sample's own places may lie to one side of the lens.
+        reach.inverseFocus = reachOf(motions, sample_).inverseFocus;
+        vec4 shifts = lensShifts(reach, vec2(lensAlong));
+        bounds = vec4(min(bounds.xy, from - shifts.zw), max(bounds.zw, from - shifts.xy));
     }
-    vec4 shifts = lensShifts(motions, samples, vec2(mover == kSkyMover ? 0.0f : along));
-    return vec4(min(bounds.xy - shifts.zw, 0.0f), max(bounds.zw - shifts.xy, 0.0f));
+    return bounds;
 }
 
 /// For the block's centre or, if that sees itself, for three corners, which also detect rotation
@@ -378,7 +389,7 @@ BlockLook findChange(uint sample_, float depth) {
     float along = alongOf(depth, true);
     vec2 confusion = motions.value.confusion;
     float share = 1.0f - shareForInterpolation(abs(confusion.x - confusion.y * along));
-    float focus = LensReachTable(motions.value.lensReaches).reaches[sample_].inverseFocus;
+    float focus = reachOf(motions, sample_).inverseFocus;
     return BlockLook(vec2(share * (focus - along), 0.0f), 0u, 0u);
 }
 

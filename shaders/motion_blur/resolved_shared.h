@@ -76,9 +76,9 @@ SHUTTER_CONST uint kMostLooks = 32u;
 /// perY the bits of a float, their share of InstantNoise, [0, 1]. With a lens place.x is the
 /// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
-/// With a lens the looks are those of the middle set, each followed by one that says how the others
-/// differ where it is a plane: by place.x of how far their places of the lens move what lies at 1 m
-/// from where it is infinitely far away.
+/// With a lens there are two entries per sample: the middle set's look and, where that is a plane,
+/// its change. Another set looks at look + perX * d.x + perY * d.y, where d = change.place.x *
+/// (zw of its place - zw of the middle set's) (lensOf()).
 ///
 /// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
 struct BlockLook {
