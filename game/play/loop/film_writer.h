@@ -14,7 +14,8 @@ namespace shutter::game {
 
 class FilmWriter {
   public:
-    /// \param out NAME%04d.png, .jpg, or .mp4, whose frames go to a folder beside it first
+    /// \param out NAME%04d.png, .jpg, or .mp4, whose frames are first written to a folder next to
+    /// it
     /// \param ffmpeg the program, for a film; empty: the one on PATH
     /// \param fps frames per second of the film
     /// Error: ffmpeg is missing, or nothing can be written there.

@@ -86,7 +86,7 @@ void FlythroughRecorder::addFrame(const scene::World& world, const extract::View
         mLast = key;
         return;
     }
-    // What came just before a cut is where the shot ended.
+    // The key just before a cut is the end of its shot.
     if (key.cut && mLast && mLast->seconds > keys.back().seconds)
         keys.push_back(*mLast);
     keys.push_back(key);

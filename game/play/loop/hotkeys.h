@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys that change what is seen rather than what is played.
+// Keys that change the view rather than the game.
 #pragma once
 
 #include "engine/app/input.h"
@@ -25,7 +25,7 @@ cycle(std::span<const std::string> choices, const std::string& current, int step
 /// Slower and faster speeds of the game, 0.05 to 1.
 [[nodiscard]] double nextSpeed(double speed, int step);
 
-/// Changes the settings as the keys say; the rest is left as wishes.
+/// Applies the keys to the settings; returns the rest as requests.
 /// \param speed of the game now
 [[nodiscard]] PanelWishes applyHotkeys(
     const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings

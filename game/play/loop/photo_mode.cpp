@@ -19,7 +19,7 @@ namespace shutter::game {
 
 namespace {
 
-constexpr double kMetresPerSecond = 4.0; ///< until the wheel says otherwise
+constexpr double kMetresPerSecond = 4.0; ///< until changed by the wheel
 
 math::Transform toTransform(const math::dmat4& rigid) {
     math::Transform transform;
@@ -128,7 +128,7 @@ void PhotoCamera::take(scene::World& world, ecs::Entity stageCamera, double seco
     out.entity = world.registry.create();
     world.registry.add(out.entity, camera);
     copyLens(world, stageCamera, out.entity);
-    // What the stage scales or mirrors is taken back; one that is scaled to nothing carries nobody.
+    // Removes the stage's scale and mirroring; a stage scaled to zero has no passengers.
     const math::dmat4 stageFromWorld = glm::inverse(worldFromStage);
     const bool carries = math::isFinite(stageFromWorld);
     if (carries)
@@ -160,7 +160,7 @@ void PhotoCamera::advance(
     if (!mOut)
         return;
     steer(mOut->view, input, wallSeconds, heightPx);
-    // A view has no roll: one that nobody moved is the stage's camera itself.
+    // A view has no roll: an unmoved view is the stage's camera itself.
     math::dmat4 local = mOut->rest;
     if (!isSameView(mOut->view, mOut->start))
         local = mOut->stageFromWorld * computeMatrix(placementOf(mOut->view));

@@ -29,10 +29,10 @@ class PictureFiles {
 
     [[nodiscard]] bool isFilming() const { return mFilm != nullptr; }
 
-    /// Asks for the next picture as a file of its own.
+    /// Requests the next picture as a separate file.
     void addScreenshot(const std::filesystem::path& file) { mNext.push_back({file, {}, false}); }
 
-    /// Asks for the next picture as a PNG file without what is drawn over it.
+    /// Requests the next picture as a PNG file without overlays.
     /// \param texts that the file holds
     void addPhoto(const std::filesystem::path& file, std::vector<io::PictureText> texts) {
         mNext.push_back({file, std::move(texts), true});
@@ -44,18 +44,18 @@ class PictureFiles {
     /// Whether the next picture is a photo.
     [[nodiscard]] bool wantsPhoto() const;
 
-    /// To be called once the next picture was submitted, read back if wantsPicture() said so.
+    /// To be called once the next picture was submitted, read back if wantsPicture() returned true.
     void notePicture();
 
-    /// Files of photos that were asked for and are not written yet.
+    /// Files of requested photos that are not written yet.
     [[nodiscard]] std::vector<std::filesystem::path> listPendingPhotos() const;
 
-    /// What became of the photo that was written last, for the player; empty where none was since
-    /// the last call.
+    /// Message to the player about the last written photo; empty if there was none since the last
+    /// call.
     [[nodiscard]] std::string takeNews() { return std::exchange(mNews, {}); }
 
     /// Writes the pictures that the renderer has finished. Error: a screenshot or the film cannot
-    /// be written; of a photo takeNews() tells.
+    /// be written; for photos see takeNews().
     [[nodiscard]] core::Status takePictures(PlayRenderer& renderer);
 
     /// Makes the film, of whose pictures all were taken.

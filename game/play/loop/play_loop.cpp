@@ -27,9 +27,9 @@ constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
 /// The keys are shown to a new player for as long, or until the panel is opened.
 constexpr double kHintSeconds = 30.0;
-/// Windows of this height and less have text of the size that the display asks for.
+/// Windows up to this height have text of the display's standard size.
 constexpr double kPlainHeightPx = 1080.0;
-/// The divider can be grabbed this far beside it.
+/// The divider can be grabbed within this distance.
 constexpr double kGrabPx = 8.0;
 
 math::uvec2 scaledSize(const math::uvec2& window, double scale) {
@@ -200,7 +200,7 @@ double PlayLoop::measureFrame() {
     mLastTurn = now;
     if (mScript)
         return mScript->frameSeconds();
-    // Nobody waits for a film, and nobody looks where there is no window.
+    // Films and runs without a window need no real time.
     return mFiles.isFilming() || !mScreen.hasWindow() ? mOptions.fps.secondsOf(1.0) : seconds;
 }
 
@@ -223,7 +223,7 @@ core::Status PlayLoop::advance() {
     input = filterInput(input);
     mTime = mClock.advance(wallSeconds);
     mPhotoCamera.advance(mStage->world(), input, wallSeconds, double(size.y));
-    // The hand that is on the photo's camera is not on the game.
+    // Photo mode captures input; the game receives none.
     mStage->advance(
         mPhotoCamera.isOut() ? app::InputState() : input,
         {mTime, wallSeconds, double(size.y), mClock.isPaused()}
@@ -487,7 +487,7 @@ void PlayLoop::chooseExposure(double duration) {
     mStage->adjustShutter(now, shutter);
     world.registry.add(camera(), shutter);
     mExposure = scene::computeExposure(shutter, now, duration);
-    // What is simulated is known up to now: an exposure that would go on is drawn later.
+    // Simulated motion is known up to now: an exposure that ends later is drawn later.
     if (mExposure.close > now)
         mExposure =
             scene::computeExposure(shutter, now - (mExposure.close - mExposure.raster), duration);

@@ -52,7 +52,7 @@ class PlayLoop {
     app::InputState filterInput(const app::InputState& input);
     void dragDivider(const app::InputState& input);
     PanelWishes drawPanel(const app::InputState& input, double wallSeconds);
-    /// Without what the stage says: lines and keys.
+    /// Without the stage's part: lines and keys.
     [[nodiscard]] PanelFacts describeSession() const;
     void apply(const PanelWishes& wishes);
     core::Status drawPicture(double duration);
@@ -62,7 +62,7 @@ class PlayLoop {
     void toggleRecording();
     core::Status finish();
     core::Status writeRecord();
-    /// Destroys what draws, before what it draws with.
+    /// Destroys the renderers before their resources.
     void releaseDrawing();
     /// Sets the exposure of a frame that ends now and takes `duration` seconds of game time.
     void chooseExposure(double duration);
@@ -78,16 +78,16 @@ class PlayLoop {
     [[nodiscard]] std::string explainPinhole() const;
     /// Tells a player who named a lens that it has no effect.
     void warnOfPinhole();
-    /// The camera that is looked through: photo mode's, or the stage's.
+    /// The active camera: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;
-    /// Asks for the next picture as a file.
+    /// Requests the next picture as a file.
     void savePicture();
     /// With which the next picture is drawn.
     [[nodiscard]] PlaySettings chooseSettings() const;
     [[nodiscard]] double chooseUiScale(const app::InputState& input);
 
     const PlayOptions& mOptions;
-    SessionWatch* mWatch; ///< null: nobody looks on
+    SessionWatch* mWatch; ///< null: there is no observer
     Clock::time_point mStart;
     PlaySettings mSettings;
     SettingsKeeper mKeeper;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `shutter play`'s options as a person types them, and what they mean.
+// Command-line options of `shutter play`, and their interpretation.
 #pragma once
 
 #include "engine/core/result.h"
@@ -36,14 +36,14 @@ struct PlayArguments {
 
 /// As meant.
 struct PlayOptions {
-    std::string demo; ///< of listDemos(); empty: a scene is looked at
+    std::string demo; ///< of listDemos(); empty: a scene is viewed
     ShotOptions shot; ///< scene, camera, clips, loop, size and light count
     gpu::DeviceOptions device;
     std::filesystem::path ffmpeg;      ///< empty: the one on PATH
     std::optional<std::string> method; ///< wins over the settings' own
     std::filesystem::path script;      ///< empty: a person plays
     std::filesystem::path film;        ///< %04d.png or .mp4; empty: none
-    core::FrameRate fps = 30.0;        ///< of frames that nobody waits for
+    core::FrameRate fps = 30.0;        ///< of frames that do not run in real time
     std::filesystem::path settings;    ///< empty: the player's own
     std::filesystem::path assets;      ///< folder of the demos' scenes
     std::filesystem::path stats;       ///< empty: none

@@ -15,7 +15,7 @@
 
 namespace shutter::game {
 
-/// What does not change from frame to frame.
+/// Facts that are constant during a session.
 struct SessionFacts {
     std::string title;
     std::string device;

@@ -32,7 +32,7 @@ void PlayRenderer::finishAll() {
 }
 
 void PlayRenderer::makeRoom(const PlaySettings& settings) {
-    // Methods and looks that draw many frames count on being alone.
+    // Methods and settings that draw many frames require to be the only ones in flight.
     const bool isAlone = settings.split || std::isfinite(settings.shutter.maxBlurPercent);
     mDrawer.finishUntil(isAlone ? 0 : mRenderer.framesInFlight() - 1);
     takeFinished();

@@ -37,7 +37,7 @@ struct PlayPicture {
     std::optional<MoreRays> moreRays; ///< for the method truth without a split
 };
 
-/// Each world's assets need a renderer of their own.
+/// Each world's assets need a separate renderer.
 class PlayRenderer {
   public:
     PlayRenderer(gpu::Device& device, const scene::Assets& assets);

@@ -119,7 +119,7 @@ void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& r
         mSwapchain->resize(desc);
         return;
     }
-    // Where the window has no new surface yet, the next turn asks again.
+    // If the window has no new surface yet, the next iteration tries again.
     if (const auto surface = mWindow->createSurface(mDevice->instance()))
         mSwapchain->resize(desc, surface.value());
 }

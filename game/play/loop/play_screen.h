@@ -53,8 +53,8 @@ class PlayScreen {
     void apply(app::WindowAction action);
     void toggleFullScreen();
 
-    /// Makes the swapchain anew where it does not fit the window, whose size is `sizePx`: for
-    /// another size or mode, or because the window system said so. `renderer` is finished for that.
+    /// Recreates the swapchain if it does not fit the window, whose size is `sizePx`: for another
+    /// size or mode, or at the window system's request. `renderer` is finished for that.
     /// \return whether there are images: a window may have no area to draw on now
     [[nodiscard]] bool fit(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer);
 

@@ -16,7 +16,7 @@ namespace {
 using app::InputState;
 using app::Key;
 
-/// Metres from the camera to the middle of what is drawn.
+/// Metres from the camera to the centre of the drawn geometry.
 double findDistance(const scene::World& world, ecs::Entity camera, double seconds) {
     const math::Bounds bounds = scene::computeWorldBounds(world, seconds);
     const math::dvec3 eye(worldFromEntity(world, camera, seconds)[3]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who looks on while a session is played unattended: adds to what is played, and measures.
+// Observer of an unattended session: may replace the stage, and measures.
 #pragma once
 
 #include "game/play/loop/stage.h"
@@ -19,7 +19,7 @@ class SessionWatch {
   public:
     virtual ~SessionWatch() = default;
 
-    /// Called once, before the first frame. \return what is played in the place of `stage`
+    /// Called once, before the first frame. \return the stage to play in place of `stage`
     [[nodiscard]] virtual std::unique_ptr<Stage> wrap(std::unique_ptr<Stage> stage) = 0;
 
     /// Called after a picture was submitted.

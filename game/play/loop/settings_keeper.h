@@ -20,7 +20,7 @@ class SettingsKeeper {
     [[nodiscard]] core::Result<PlaySettings>
     open(const PlayOptions& options, bool isScripted, std::string& message);
 
-    /// Writes the settings. \return one line for the player: what was done, or why nothing was
+    /// Writes the settings. \return one line for the player: the result, or why nothing was saved
     [[nodiscard]] std::string save(const PlaySettings& settings) const;
 
     /// Reads the settings again; `settings` stay as they are if the file is refused.

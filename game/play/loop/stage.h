@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is played or looked at: a world, the camera to look through, and what a hand on the controls
-// does to both.
+// A game or viewed scene: a world, the active camera, and the effect of controls on both.
 #pragma once
 
 #include "engine/app/input.h"
@@ -35,7 +34,7 @@ class Stage {
     /// Moves on by a frame, as the player wants.
     virtual void advance(const app::InputState& input, const StageFrame& frame) = 0;
 
-    /// What the stage itself says of its camera's shutter at the time.
+    /// Applies the stage's own settings of its camera's shutter at the time.
     virtual void adjustShutter(double seconds, scene::CameraShutter& shutter) const {
         (void)seconds;
         (void)shutter;
@@ -65,8 +64,8 @@ class Stage {
 [[nodiscard]] core::Result<std::unique_ptr<Stage>>
 makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options);
 
-/// A scene file to look at: its cameras, one that goes round it, and one that flies.
-/// \param options scene, camera, flythrough, clips, loop, background, ambient and size count
+/// Views a scene file: its cameras, an orbiting one and a flying one.
+/// \param options scene, camera, flythrough, clips, loop, background, ambient and size are used
 [[nodiscard]] core::Result<std::unique_ptr<Stage>> loadSceneStage(const ShotOptions& options);
 
 } // namespace shutter::game

@@ -14,7 +14,7 @@ enum class ViewerMode : uint8_t { Orbit, Fly };
 class ViewerCamera {
   public:
     /// Creates its entity as a copy of `like`, placed and focused as that is at `seconds`.
-    /// \param distance of what is looked at, metres, above 0
+    /// \param distance to the target, metres, above 0
     ViewerCamera(scene::World& world, ecs::Entity like, double distance, double seconds);
 
     [[nodiscard]] ecs::Entity entity() const { return mEntity; }
@@ -23,13 +23,13 @@ class ViewerCamera {
 
     /// Continues from where it is.
     void setMode(ViewerMode mode);
-    /// Stands there; the way before it is forgotten. \param placement in world space
+    /// Jumps to a placement and clears its recorded motion. \param placement in world space
     void jumpTo(const math::Transform& placement);
 
     [[nodiscard]] math::Transform placement() const;
 
-    /// Moves as the player wants and tells the world which way it came. While the game is paused a
-    /// camera that nobody touches keeps the way it had, and with it its blur.
+    /// Moves by the player's input and records its motion in the world. While the game is paused,
+    /// an untouched camera preserves its last motion, and so its blur.
     /// \param seconds game time of the frame \param duration game time of a frame, above 0
     void advance(
         scene::World& world,

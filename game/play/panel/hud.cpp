@@ -45,7 +45,7 @@ float widest() {
 
 enum class Way : uint8_t { Down, Up };
 
-/// The dark grounds that lines stand on, which any picture can lie behind.
+/// Dark backgrounds behind lines of text, so that they are readable over any picture.
 class Grounds {
   public:
     /// Draws the ground of a text of `size` where there is room for it: at `place` or beyond what
@@ -260,7 +260,7 @@ float drawAbove(Grounds& grounds, float y, const std::string& text, ImU32 color)
 }
 
 /// The most important keys, unless they take more than a third of the window.
-/// \return where what stands above them ends, y
+/// \return y of their upper end
 float drawHint(Grounds& grounds, std::span<const KeyHelp> own, float y) {
     const std::string common = describeKeys(listCommonKeys());
     const std::string more = describeKeys(own);

@@ -21,7 +21,7 @@ constexpr double kFastest = 1.0;
 /// Metres, from which a focus distance is called infinite.
 constexpr double kFar = 1.0e6;
 
-/// Buttons beside one another, on a new line where the panel ends.
+/// Buttons in a row, wrapped at the panel's edge.
 class ButtonRow {
   public:
     bool add(const char* text, const char* tooltip, bool enabled = true) {
@@ -87,7 +87,7 @@ void drawPlayRows(const char* id, PlaySettings& settings, std::span<const std::s
     endRows();
 }
 
-/// The budget, and what it made the blur give up.
+/// The budget, and the quality that it dropped.
 void drawBudget(const PanelFacts& facts, PlaySettings& settings) {
     drawRows("budget", motion_blur::listBudgetRows(), settings.budget);
     if (!facts.right || settings.budget.isUnlimited() || !isReduced(*facts.right))

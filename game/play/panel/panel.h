@@ -15,21 +15,21 @@
 
 namespace shutter::game {
 
-/// A key and what it does, in a few words.
+/// A key and its action, in a few words.
 struct KeyHelp {
     std::string key;
     std::string what;
 };
 
-/// What a frame tells the panel.
+/// Data of a frame for the panel.
 struct PanelFacts {
     std::string title;             ///< of the demo or scene
     std::span<const HudLine> hud;  ///< of a demo
     std::span<const KeyHelp> keys; ///< of the demo or scene, besides those of every session
-    bool showsHint = false;        ///< the most important keys stand below the picture
+    bool showsHint = false;        ///< the most important keys are shown below the picture
     std::string message;           ///< one line, e.g. what could not be done; empty: none
-    /// The last finished frame's; null: none yet. Passes and work say why they ran where the frame
-    /// was drawn with FrameRequest::wantReasons.
+    /// The last finished frame's; null: none yet. Passes and work have reasons if the frame was
+    /// drawn with FrameRequest::wantReasons.
     const render::FrameStatistics* right = nullptr;
     const render::FrameStatistics* left = nullptr; ///< of a split; null: no split
     double frameMilliseconds = 0.0;   ///< wall time of a frame, mean of the last second's

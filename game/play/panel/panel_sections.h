@@ -17,8 +17,8 @@ namespace shutter::game {
 
 void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes);
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings);
-/// What is drawn besides the blur, and how large.
-/// The effects beside the motion blur, each with its switch.
+/// Settings of the picture other than the blur, and its size. The other effects, each with its
+/// switch.
 void drawEffectSection(PlaySettings& settings);
 void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 /// All settings of the blur: those that no shown method reads are greyed, below the others.
@@ -60,8 +60,8 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
 /// Whether another method drew that frame, as the pipelines of its own were still being made.
 [[nodiscard]] bool isDrawnByStandIn(const render::FrameStatistics& statistics);
 
-/// "resolved", and where the budget made it give something up "resolved, reduced: 16 ms budget";
-/// "hybrid: gather until its pipelines are made" where that method stood in for it.
+/// "resolved", and "resolved, reduced: 16 ms budget" if the budget dropped quality; "hybrid: gather
+/// until its pipelines are made" where that method stood in for it.
 /// \param statistics of the method's last frame; null: none is finished yet
 [[nodiscard]] std::string describeMethod(
     const std::string& method,
@@ -69,7 +69,7 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
     const motion_blur::BlurBudget& budget
 );
 
-/// The effects beside the blur that are on, "taa, blurred shadows, sky, bloom, particles".
+/// The enabled effects other than the blur, "taa, blurred shadows, sky, bloom, particles".
 [[nodiscard]] std::string describeEffects(const PlaySettings& settings);
 
 /// "motion blur 12.3 ms (19 % of the frame)".

@@ -46,7 +46,7 @@ class PassHistory {
     void forget(size_t pass);
 
     std::vector<Pass> mPasses;
-    std::deque<std::vector<float>> mFrames; ///< oldest first; milliseconds beside mPasses
+    std::deque<std::vector<float>> mFrames; ///< oldest first; milliseconds parallel to mPasses
     std::deque<std::vector<bool>> mHas;     ///< likewise: the frame had the pass
 };
 

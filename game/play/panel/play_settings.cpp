@@ -50,7 +50,7 @@ bool isSharp(const Preset& preset) {
     return std::string_view(preset.method) == "sharp";
 }
 
-/// What a preset makes of the effects beside the blur.
+/// A preset's settings of the effects other than the blur.
 struct PresetLook {
     std::string_view preset;
     AntiAliasing antiAliasing;

@@ -38,7 +38,7 @@ struct PlaySettings {
     /// In place of the camera's own lens, for methods that have one.
     scene::LensOverride lens;
     /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
-    /// sick. At 0 only what moves in the world blurs.
+    /// sick. At 0 only moving objects blur.
     double cameraBlurScale = 1.0;
     uint32_t instants = 16;    ///< instants per frame of `accumulate`, [1, 256]
     uint32_t rays = 4;         ///< rays per pixel and frame of `truth`, [1, 256]
@@ -57,8 +57,8 @@ struct PlaySettings {
 [[nodiscard]] motion_blur::MotionBlurSettings
 makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
 
-/// Changes the method, the blur and, where the preset is one for players, the effects beside it.
-/// Turning the blur off leaves the rest as it is, so that the two pictures differ in nothing else.
+/// Changes the method, the blur and, if the preset is for players, the other effects. Turning the
+/// blur off does not change the rest, so that the two pictures differ only in the blur.
 void applyPreset(const Preset& preset, PlaySettings& settings);
 /// The settings are as the preset makes them.
 [[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);
@@ -66,8 +66,8 @@ void applyPreset(const Preset& preset, PlaySettings& settings);
 /// One sentence naming the field that is out of its range.
 [[nodiscard]] core::Status validate(const PlaySettings& settings);
 
-/// makeSettingsSchema() says what a file holds. Fields that it lacks keep their defaults; whether
-/// `view` names an intermediate is not checked. Error: names file, line and field.
+/// makeSettingsSchema() defines the file format. Missing fields have their defaults; whether `view`
+/// names an intermediate is not checked. Error: names file, line and field.
 [[nodiscard]] core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path);
 /// Renamed into place. Error: settings that validate() refuses, or names the file.
 [[nodiscard]] core::Status
@@ -86,7 +86,7 @@ savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings
 inline constexpr size_t kMaxViewBytes = 64;
 
 /// One row per field of PlaySettings, except for names (method, leftMethod, view) and for structs
-/// that have rows of their own. In files they stand beside the rows of visitPictureRows().
+/// with separate rows. In files they are siblings of the rows of visitPictureRows().
 [[nodiscard]] core::SettingRows<PlaySettings> listPlayRows();
 
 } // namespace shutter::game

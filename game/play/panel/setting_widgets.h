@@ -13,7 +13,7 @@
 
 namespace shutter::game {
 
-/// What a widget shows beside its value.
+/// Label and format of a widget.
 struct WidgetLook {
     const char* name;  ///< in settings files
     const char* label; ///< for people
@@ -68,7 +68,7 @@ void drawRow(const core::SettingRow<Owner>& row, Owner& owner, const Owner& defa
         setNumber(row, owner, event == WidgetEvent::Reset ? getNumber(row, defaults) : value);
 }
 
-/// All rows in a table of their own.
+/// All rows in a separate table.
 template <class Owner>
 void drawRows(
     const char* id,

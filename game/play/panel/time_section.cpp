@@ -68,7 +68,7 @@ struct Band {
     ImU32 color = 0;
 };
 
-/// From the bottom up: the blur is stacked on what is drawn without it.
+/// From the bottom up: the blur is stacked on the rest of the frame.
 std::vector<Band> listBands(const PassHistory& history, const MethodInfo& method) {
     std::vector<Band> bands;
     for (const PassGroup group : kGroups)
@@ -188,7 +188,7 @@ void drawLegend(const PassHistory& history, std::span<const Band> bands) {
         return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("median", ImGuiTableColumnFlags_WidthFixed);
-    // The blur first: it is what one looks for.
+    // The blur first, as the most relevant group.
     for (const PassGroup group :
          {PassGroup::Blur, PassGroup::Other, PassGroup::Scene, PassGroup::Display}) {
         if (std::none_of(bands.begin(), bands.end(), [&](auto& b) { return b.group == group; }))

@@ -174,7 +174,7 @@ BlockCounters BlockSorter::counters(uint32_t slot) const {
         static_cast<const char*>(mHeaders.mapped()) + slot * kHeaderBytes,
         kHeaderBytes
     );
-    const uint32_t candidates = headers[1].uniformCount; // kCandidateList is the first of its own
+    const uint32_t candidates = headers[1].uniformCount; // kCandidateList is the first separate one
     const uint32_t moving = headers[0].uniformCount + headers[0].mixedCount + candidates;
     BlockCounters counters;
     counters.still = blockCount > moving ? blockCount - moving : 0;

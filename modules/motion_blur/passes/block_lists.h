@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorts the picture's blocks of 8 x 8 pixels into lists by what they ask for; the passes after are
-// dispatched over the lists, without the CPU.
+// Sorts the picture's blocks of 8 x 8 pixels into lists by class; later passes are dispatched over
+// the lists, without the CPU.
 #pragma once
 
 #include "engine/gpu/frame.h"
@@ -25,8 +25,8 @@ struct BlockLists {
 
 struct SortedBlocks {
     BlockLists lists; ///< kUniformList, kMixedList, kStillList; after the ray mask kMaskedList
-    /// kCandidateList: what the ray mask has to look at; after the list a flag for each block of
-    /// the picture, which the ray mask sets where it has masked pixels.
+    /// kCandidateList: blocks for the ray mask to test; after the list a flag for each block of the
+    /// picture, which the ray mask sets where it has masked pixels.
     BlockLists candidates;
 };
 

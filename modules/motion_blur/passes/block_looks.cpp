@@ -18,7 +18,7 @@ gpu::ComputePipelineDesc describeResolve(const gpu::Device& device, bool hasLens
     gpu::ComputePipelineDesc desc = describePass(
         "resolve uniform", motion_blur_resolved_uniform_comp, {kSampled, kStorage, kBuffer, kBuffer}
     );
-    // On a software device a thread takes a column of the block: what it loads serves all of it.
+    // On a software device a thread processes a column of the block and reuses its loads.
     const uint32_t rows = isSoftware(device) ? 1u : shader::kGroupSize;
     desc.specialization = {shader::kUniformList, rows, rows, hasLens ? 1u : 0u};
     return desc;
@@ -172,7 +172,7 @@ BlockLookOutputs BlockLooks::addFind(
             [this, params](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;
                 const BlockLists& lists = data.sorted.blocks.lists;
-                // Bindings that the shader does not use are some buffer all the same.
+                // Unused bindings still need a valid descriptor.
                 const bool hasPlanes = data.planes.isValid();
                 const SortedCandidates& layers = data.tiles.candidates;
                 const bool mayCrowd = data.tiles.crowds.isValid();

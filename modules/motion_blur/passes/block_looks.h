@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the pixels of a block look at, found for all of them together: where they see one plane of
-// this frame's raster, that is known without a search.
+// Finds the samples of a block's pixels for all of them together: if they see one plane of this
+// frame's raster, no search is needed.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -21,7 +21,7 @@ struct SortedCandidates {
     graph::BufferHandle last;   ///< the same
 };
 
-/// What is known of each tile of a frame.
+/// Per-tile data of a frame.
 struct TileInputs {
     SortedCandidates candidates;
     graph::BufferHandle parts; ///< of DeformingParts, this frame's raster; invalid: nothing deforms
@@ -38,11 +38,10 @@ struct BlockLookOutputs {
 
 class BlockLooks {
   public:
-    /// \param sortsUniform blocks that see a plane at every instant are in a list of their own
+    /// \param sortsUniform blocks that see a plane at every instant are in a separate list
     BlockLooks(gpu::Device& device, bool sortsUniform);
 
-    /// Whether pixels take few enough instants, and the device takes the buffer that the looks
-    /// need.
+    /// Whether the number of instants and the size of the lookup buffer are within their limits.
     [[nodiscard]] bool canFind(const PassParams& params) const;
 
     /// Sorts the blocks that something moves in.

@@ -96,7 +96,7 @@ CandidateOutputs CandidateLists::add(
             const CandidateOutputs& data, graph::PassContext& context
         ) {
             const graph::PassResources& resources = context.resources;
-            // Bindings of what no tile has are some buffer all the same.
+            // Unused bindings still need a valid descriptor.
             const DeformingTiles deforming = data.deforming.tiles.isValid()
                                                  ? data.deforming
                                                  : DeformingTiles{data.candidates, data.candidates};

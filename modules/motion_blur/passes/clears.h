@@ -9,22 +9,22 @@
 
 namespace shutter::motion_blur {
 
-/// Serves one frame. Passes first add what they need; then the clearing pass is declared; then they
-/// are declared with what get() returns.
+/// Serves one frame. Passes first add their resources; then the clearing pass is declared; then the
+/// passes are declared with the handles from get().
 class Clears {
   public:
     /// To 0.
     void add(graph::ImageHandle image);
     /// Every word of the buffer.
     void add(graph::BufferHandle buffer, uint32_t word);
-    /// The first bytes of a list, to 0. \param bytes a multiple of 4
+    /// Clears the first bytes of a list. \param bytes a multiple of 4
     void addHead(graph::BufferHandle list, uint32_t bytes);
     /// Dispatches of no groups. \param listCount at most kListCount
     void addArguments(graph::BufferHandle arguments, uint32_t listCount);
 
     void declare(graph::Graph& graph);
 
-    /// What was added, after declare() (CHECKed).
+    /// Returns the cleared version, after declare() (CHECKed).
     [[nodiscard]] graph::ImageHandle get(graph::ImageHandle image) const;
     [[nodiscard]] graph::BufferHandle get(graph::BufferHandle buffer) const;
 

@@ -86,7 +86,7 @@ graph::ImageHandle Composite::add(
                 gpu::BindingList bindings;
                 for (const graph::ImageHandle image : {color, opacity})
                     bindings.sampled(resources.view(image), mDevice.nearestSampler());
-                // Bindings that the shader does not use are something all the same.
+                // Unused bindings still need a valid descriptor.
                 bindings.storage(resources.image(data.picture))
                     .storage(resources.image(data.sum.isValid() ? data.sum : data.picture));
                 const bool hasParts = data.surfaces.isValid();

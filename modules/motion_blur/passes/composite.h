@@ -28,7 +28,7 @@ class Composite {
   public:
     explicit Composite(gpu::Device& device);
 
-    /// \param picture RGBA16F, with storage usage; what is behind
+    /// \param picture RGBA16F, with storage usage; the background
     /// \param draw called for each part in turn, before the pass that composites it: images of
     /// different parts may share memory
     /// \param rectangle whose parts they are, and whose instants and parts describe `surfaces`

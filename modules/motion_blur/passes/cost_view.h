@@ -14,7 +14,7 @@ class CostView {
   public:
     explicit CostView(gpu::Device& device);
 
-    /// R32F: fetches a pixel, 0 where nothing moves. Drawn only if something reads it.
+    /// R32F: fetches per pixel, 0 where nothing moves. Drawn only if something reads it.
     /// \param mask of the ray mask; invalid: the method has none
     [[nodiscard]] graph::ImageHandle
     add(graph::Graph& graph,

@@ -88,7 +88,7 @@ graph::BufferHandle Crowds::add(
             gpu::BindingList bindings;
             for (const SurfaceLayer& layer :
                  {data.layers.raster, data.layers.last, data.layers.second}) {
-                // Bindings that the shader does not use are some image all the same.
+                // Unused bindings still need a valid descriptor.
                 const SurfaceLayer& bound = layer.surface.isValid() ? layer : data.layers.raster;
                 bindings.sampled(resources.view(bound.surface), mSampler);
             }

@@ -26,12 +26,12 @@ class Crowds {
   public:
     explicit Crowds(gpu::Device& device);
 
-    /// Buffers that nothing has written, to be cleared with others.
-    /// \param params with shader::ResolvedParams that say which layers there are
+    /// Creates unwritten buffers, to be cleared with others.
+    /// \param params with shader::ResolvedParams, which contain the layers
     [[nodiscard]] static CrowdBuffers
     create(graph::Graph& graph, const PassParams& params, Clears& clears);
 
-    /// Finds how what comes over crowded tiles moves, and which further tiles are crowded. Does
+    /// Finds the motion of surfaces that pass over crowded tiles, and further crowded tiles. Does
     /// nothing where no list overflowed.
     /// \param crowds as the passes left them that listed candidates
     /// \param motionDepth of this frame's raster

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of what deforms (resolved_parts_shared.h): found tile by tile, and listed where they
-// may be seen.
+// Deforming parts (resolved_parts_shared.h): found per tile, and listed in the tiles where they may
+// be visible.
 #pragma once
 
 #include "engine/gpu/pipeline.h"

@@ -27,8 +27,8 @@ namespace shutter::motion_blur {
     return desc;
 }
 
-/// Subgroups of passes whose pixels go ways of their own: the fewer wait for one another, the
-/// better, and compilers hold more in registers. AMD's GPUs have twice of it, too.
+/// Subgroup size of passes with divergent pixels: small subgroups wait less, and compilers use more
+/// registers. AMD's GPUs also have twice this size.
 inline constexpr uint32_t kDivergingSubgroup = 32;
 
 /// Whether shaders run on the CPU, where fewer threads that do more each are faster.

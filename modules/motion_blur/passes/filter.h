@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Filters of one pass: some pictures in, the filtered one out, over the whole picture or over one
-// list of blocks. The methods without a second layer differ in their shader and in what it reads.
+// list of blocks. Methods without a second layer differ in their shader and its inputs.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -47,10 +47,10 @@ class ScreenFilter {
     gpu::LazyPipeline mPipeline;
 };
 
-/// Filters the blocks of one list; the shader has the lists at the binding behind its output, and
+/// Filters the blocks of one list; the shader has the lists at the binding after its output, and
 /// the list's number as specialization constant 0 (block_list.glsl). Filters that write one target
-/// after another run at once: no block is in two lists, and who goes over candidates leaves out
-/// those that are masked.
+/// after another run at once: no block is in two lists, and passes that iterate candidates must
+/// skip masked ones.
 class BlockFilter {
   public:
     /// \param list shader::kUniformList, ...

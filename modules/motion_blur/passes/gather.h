@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The gather of one or two layers and their composite (Tan et al., "Post-process" and appendix),
-// each class of blocks by a kernel of its own.
+// with a separate kernel for each class of blocks.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -12,7 +12,7 @@
 
 namespace shutter::motion_blur {
 
-/// What lies behind. Images hold masked pixels, `dominant` tiles that have some; elsewhere the
+/// The background layer. Images hold masked pixels, `dominant` tiles that have some; elsewhere the
 /// layer is the raster's.
 struct RevealedLayer {
     graph::ImageHandle color;

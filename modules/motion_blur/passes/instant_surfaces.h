@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What pixels of a rectangle saw at some of the instants, for what is drawn over the blurred
-// picture.
+// Surfaces visible in the pixels of a rectangle at some of the instants, for surfaces drawn over
+// the blurred picture.
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -23,7 +23,7 @@ class InstantSurfacesPass {
     explicit InstantSurfacesPass(gpu::Device& device);
 
     /// Fills LookUpOutputs::surfaces.
-    /// \param wanted rectangles that lie in the picture; empty: nobody wants any
+    /// \param wanted rectangles that lie in the picture; empty: none are needed
     /// \param found of a LookUp; its counters and its picture come back as other versions
     /// \param params that the LookUp used
     void

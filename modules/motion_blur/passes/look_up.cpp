@@ -79,7 +79,7 @@ float turnOf(int64_t frameNumber) {
     return static_cast<float>(turns - std::floor(turns));
 }
 
-/// What a frame of the look-up starts with.
+/// Initial buffers of the lookup in a frame.
 struct Starts {
     graph::BufferHandle counters;
     ListedPixels listed;
@@ -125,7 +125,7 @@ Starts createStarts(
     create(layers.last, LayerIndex::Last);
     if (motions.mayCrowd)
         starts.crowds = Crowds::create(graph, params, clears);
-    // Blocks of crowded tiles have the place of those that a ray mask looks at.
+    // Blocks of crowded tiles use the list that otherwise holds candidates of the ray mask.
     starts.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
     return starts;
 }
@@ -166,7 +166,7 @@ void SearchResources::use(graph::PassBuilder& builder) {
 gpu::BindingList SearchResources::bind(
     const graph::PassResources& resources, gpu::Device& device, graph::ImageHandle target
 ) const {
-    // Bindings that the shader does not use are something all the same.
+    // Unused bindings still need a valid descriptor.
     const SurfaceLayer& last = layers.last.color.isValid() ? layers.last : layers.raster;
     const SurfaceLayer& second = layers.second.color.isValid() ? layers.second : layers.raster;
     const auto bufferOr = [&](graph::BufferHandle buffer, graph::BufferHandle other) {
@@ -419,7 +419,7 @@ void LookUp::addResolve(
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.blocks.blocks));
-            // Bindings that the specialised shader does not use are some buffer all the same.
+            // Unused bindings of the specialised shader still need a valid descriptor.
             const bool isListed = data.listed.pixels.isValid();
             for (const graph::BufferHandle buffer : {data.listed.pixels, data.listed.arguments})
                 bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each pixel saw at each instant, looked up by the entities' own motion in this frame's raster
-// and in others.
+// Looks up each pixel's sample at each instant, by the entities' motion, in this frame's raster and
+// in others.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -88,8 +88,8 @@ class LookUp {
         PassParams& params,
         SharedPasses& shared);
 
-    /// What the method returns, after its last pass: adds what is static to the picture, filters
-    /// what a lens spreads, and copies the counters for the CPU.
+    /// Completes the method after its last pass: adds static pixels to the picture, filters lens
+    /// blur, and copies the counters for the CPU.
     [[nodiscard]] MotionBlurOutputs
     end(graph::Graph& graph,
         const MotionBlurInputs& inputs,
@@ -109,7 +109,7 @@ class LookUp {
     /// Nearest first.
     [[nodiscard]] SortedCandidates
     addSort(graph::Graph& graph, const SortedCandidates& listed, const PassParams& params) const;
-    /// \param areCrowded the blocks of crowded tiles; otherwise those that look at several planes
+    /// \param areCrowded the blocks of crowded tiles; otherwise those that see several planes
     void addResolve(
         graph::Graph& graph, LookUpOutputs& outputs, bool areCrowded, const PassParams& params
     ) const;

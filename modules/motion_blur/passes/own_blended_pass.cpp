@@ -10,7 +10,7 @@ namespace {
 
 using graph::Access;
 
-/// What is known before the frame is recorded.
+/// The part of the task that is known before the frame is recorded.
 BlendedTask describeTask(const BlendedDraws& draws, uint32_t part) {
     const shader::InstantSurfaces& head = draws.rectangle;
     BlendedTask task{};

@@ -8,8 +8,8 @@
 
 namespace shutter::motion_blur {
 
-/// The pass in which a host's commands reveal what lies behind masked pixels.
-/// \param inputs of which the scene and the slot do not count
+/// Adds the pass in which a host's commands render the background of masked pixels.
+/// \param inputs of which the scene and the slot are ignored
 /// \param own must outlive the graph
 [[nodiscard]] RayRevealOutputs addOwnReveal(
     graph::Graph& graph,

@@ -8,13 +8,15 @@
 
 namespace shutter::motion_blur {
 
-/// The passes that list samples for a host, let it answer, and take the answers into the picture.
+/// The passes that list samples for a host, record its commands, and merge the answers into the
+/// picture.
 class OwnSamplesPass {
   public:
     explicit OwnSamplesPass(gpu::Device& device);
 
     /// \param found of a LookUp that lists pixels; gets the picture with the answers
-    /// \param params with shader::ResolvedParams whose rayLimit is how many samples may ask
+    /// \param params with shader::ResolvedParams whose rayLimit is the maximum number of requested
+    /// samples
     /// \param own must outlive the graph
     void
     add(graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params

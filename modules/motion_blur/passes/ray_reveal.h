@@ -53,7 +53,7 @@ class RayReveal {
     /// and are ready. True where each is made when it is first used.
     [[nodiscard]] bool isReady() const;
 
-    /// Lets count() tell of a frame whose masked pixels somebody else reveals.
+    /// Makes count() include a frame whose masked pixels a host reveals.
     /// \param list of RayMask
     void countOwn(graph::Graph& graph, graph::BufferHandle list, uint32_t slot);
 

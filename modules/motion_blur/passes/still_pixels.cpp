@@ -14,7 +14,7 @@ namespace {
 
 using graph::Access;
 
-/// \param given invalid: an image of its own
+/// \param given invalid: a new image
 graph::ImageHandle
 findTarget(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle given) {
     return given.isValid() ? given : graph.createImage("blurred", graph.describeImage(color));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How the blurred picture gets its still pixels, which no filter writes. Three ways, the same
-// picture bit for bit: the whole picture is copied and the filters write over the copy; or the
-// filters write to a picture of their own and their blocks are copied back, so that still pixels
-// are not touched; or, where the sharp picture is kept for the next frame, the filters read what is
-// kept and write over the picture. The first costs the same whatever moves (1.1 ms at 1280x720 on
+// How the blurred picture gets its static pixels, which no filter writes. Three ways with
+// bit-identical pictures: the whole picture is copied and the filters write over the copy; or the
+// filters write to a separate picture and their blocks are copied back, so that static pixels are
+// not touched; or, if the sharp picture is stored for the next frame, the filters read the stored
+// copy and write over the picture. The first costs the same whatever moves (1.1 ms at 1280x720 on
 // lavapipe), the second in proportion to what moves (4 ms where all does), the third nothing:
 // passes.md, "Still pixels".
 #pragma once
@@ -23,16 +23,16 @@ enum class StillPixelsBy : uint8_t {
     InPlace,   ///< nothing is copied: the filters read a copy that is there anyway
 };
 
-/// The cheaper way for a picture of which this share of blocks moves, with some slack about the
-/// last choice, so that a share near the limit does not make pictures anew in every frame.
+/// Chooses the cheaper way for a picture with this share of moving blocks, with hysteresis, so that
+/// a share near the limit does not recreate images in every frame.
 [[nodiscard]] StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last);
 
 class StillPixels {
   public:
     explicit StillPixels(gpu::Device& device);
 
-    /// What the filters write to; `color` itself, if by InPlace.
-    /// \param wholeTarget where WholeCopy puts the picture; invalid: into an image of its own
+    /// Returns the filters' target; `color` itself for InPlace.
+    /// \param wholeTarget target of WholeCopy; invalid: a new image
     graph::ImageHandle begin(
         graph::Graph& graph,
         graph::ImageHandle color,

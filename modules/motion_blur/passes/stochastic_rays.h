@@ -18,7 +18,7 @@ class StochasticRays {
   public:
     StochasticRays(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
 
-    /// Traces params.sampleCount rays a pixel; `params` needs the addresses of `rays`.
+    /// Traces params.sampleCount rays per pixel; `params` needs the addresses of `rays`.
     [[nodiscard]] StochasticRaysOutputs
     add(graph::Graph& graph, const graph::TimedRays& rays, const PassParams& params) const;
 

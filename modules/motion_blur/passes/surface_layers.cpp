@@ -81,7 +81,7 @@ SurfaceLayersOutputs SurfaceLayers::add(
     RasterHistory* const history = inputs.instantMotions->history;
     SurfaceLayersOutputs outputs;
     const auto& lent = inputs.instantMotions->lent;
-    // What has no motion may be out of focus.
+    // Static surfaces may be out of focus.
     const bool hasLens = inputs.instantMotions->hasLens;
     const Pack& packPlain = hasLens ? mPackWhole : mPack;
     const auto pack = [&](graph::ImageHandle color,

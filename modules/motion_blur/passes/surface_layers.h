@@ -15,7 +15,7 @@ struct SurfaceLayer {
 };
 
 struct SurfaceLayersOutputs {
-    SurfaceLayer raster; ///< what is kept of it, if it is kept: the picture may then be overwritten
+    SurfaceLayer raster; ///< the stored copy, if there is one: the picture may then be overwritten
     SurfaceLayer second; ///< of the exposure's other end; invalid handles: there is none
     SurfaceLayer last;   ///< invalid handles: there is none, or none was wanted
 };
@@ -37,7 +37,7 @@ class SurfaceLayers {
         gpu::LazyPipeline edges;
     };
 
-    /// What is packed of a raster.
+    /// Inputs of packing a raster.
     struct PackInputs {
         graph::ImageHandle motionDepth;
         graph::ImageHandle entityId;
@@ -61,8 +61,8 @@ class SurfaceLayers {
     VkSampler mSampler;
     Pack mPack;
     Pack mPackKept;      ///< keeps the colour, too
-    Pack mPackKeptWhole; ///< the same where motion vectors say nothing
-    Pack mPackWhole;     ///< of rasters whose motion vectors say nothing
+    Pack mPackKeptWhole; ///< the same without motion vectors
+    Pack mPackWhole;     ///< of rasters whose motion vectors are not used
 };
 
 } // namespace shutter::motion_blur

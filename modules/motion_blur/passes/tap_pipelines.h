@@ -13,7 +13,7 @@
 
 namespace shutter::motion_blur {
 
-/// Whether a filter has a pipeline of its own for each number of taps.
+/// Whether a filter has a separate pipeline for each number of taps.
 enum class TapVariants : uint8_t {
     None, ///< one pipeline serves all
     Made, ///< each is made when it is first needed; where the device makes pipelines ahead, the
@@ -29,8 +29,7 @@ class TapPipelines {
     /// \param desc without tap constants, which come behind the other specialization constants
     TapPipelines(gpu::Device& device, gpu::ComputePipelineDesc desc, TapVariants variants);
 
-    /// For recording now: a later call may let go of it once the GPU is done with what was
-    /// submitted.
+    /// For immediate recording: a later call may destroy it once the GPU has finished its work.
     [[nodiscard]] const gpu::Pipeline& find(const PassParams& params) const;
 
     /// How many are kept for certain taps, kMostVariants at most.
