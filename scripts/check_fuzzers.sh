@@ -28,7 +28,7 @@ usage() {
 usage: scripts/check_fuzzers.sh [--short | --runs N] [READER...]
   --short   a fixed number of inputs from a fixed seed, less than a minute after the build
   --runs N  N inputs for each reader
-Without either: a million inputs over all readers, some ten minutes, from a new seed that is told.
+Without either: a million inputs over all readers, some ten minutes, from a new seed that is printed.
 READER is one of those that tests/fuzz holds a file for; without any: all. Builds in build/fuzz. Exit
 status: 0 no reader failed, 1 one did, 77 not checked because there is no clang++ with libFuzzer.
 FUZZ_BUILD_JOBS is the number of files compiled at a time.

@@ -33,7 +33,7 @@ Builds and runs tests with sanitizers:
   --short    only the programs of the rooms that read files, keep memory or sort passes: some five
              minutes; where there is a clang++ with libFuzzer, in build/fuzz, which
              scripts/check_fuzzers.sh builds too, otherwise in build/asan
-  --drawing  those that draw, on lavapipe, with the same sanitizers: hours. What leaks is told at the
+  --drawing  those that draw, on lavapipe, with the same sanitizers: hours. Leaks are reported at the
              end of each program, except for what tests/sanitizers/leaks.txt explains; not of
              those that run the program (cli)
   --thread   those that need no device, with the thread sanitizer, in build/tsan. Those that draw are

@@ -38,7 +38,7 @@ PROGRAMS = {"test_gpu": "*", "test_gpu_ui": "*", "test_image": "*",
             "test_gpu_embedded": "CInterface*:Cpp*:EmbeddedConventions.*:EmbeddedOverlay.*"}
 # Half floats of SwiftShader are NaN, by an `or` with 0x7FFF, where they overflow or are infinite: so are
 # the depth of the sky that hides particles at instants, and light beyond 65,504.
-BROKEN = ("ParticleLaw.ACameraThatPansBlursThemAsItDoesTheWorld",
+BROKEN = ("ParticleLaw.ACameraPanBlursParticlesLikeTheWorld",
           "ParticleLaw.LightThatThePictureCannotHoldStaysFinite")
 # Not run: up to minutes each, mostly because the driver compiles `resolved` again for each picture.
 SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.WhatIsPreparedAhead*", "InstantNoises.*",

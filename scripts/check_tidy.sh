@@ -115,7 +115,7 @@ main() {
         return
     fi
     [[ -e $build/compile_commands.json ]] ||
-        die "$build is not configured; scripts/setup.sh --with-tests builds what is checked"
+        die "$build is not configured; scripts/setup.sh --with-tests builds the checked files"
     database=$(mktemp -d)
     trap 'rm -rf "$database"' EXIT
     cp "$build/compile_commands.json" "$database/all.json"

@@ -84,7 +84,7 @@ std::vector<BenchCase> makeCases() {
             "camera_dolly",
             "Camera dolly",
             "The camera runs forward: motion points away from one place, is zero there and grows "
-            "towards the border, further for what is near",
+            "towards the border, further for near objects",
             &buildCameraDollyCase,
             kYardSky,
             {29.0f, 37.0f}
@@ -102,7 +102,7 @@ std::vector<BenchCase> makeCases() {
             "crossing_same_colour",
             "Crossing, same colour",
             "Two jugs of one colour cross in opposite directions, one before the other, so that "
-            "colour cannot tell them apart and one tile holds both motions",
+            "colour cannot separate them and one tile holds both motions",
             &buildCrossingCase,
             kRoomBackground,
             {25.0f, 31.0f}
@@ -120,7 +120,7 @@ std::vector<BenchCase> makeCases() {
             "self_overlap",
             "Self-overlap",
             "A coil with a ring flies and turns before the room: through its gaps it hides and "
-            "reveals parts of itself, which no object identity tells apart",
+            "reveals parts of itself, which no object identity separates",
             &buildSelfOverlapCase,
             kRoomBackground,
             {30.0f, 39.0f}
@@ -235,7 +235,7 @@ std::vector<BenchCase> makeCases() {
         withParticlesAlone(makeCase(
             "sparks",
             "Sparks",
-            "A grinder throws sparks that cover what is behind them: they have no motion vectors, "
+            "A grinder throws sparks that cover the background: they have no motion vectors, "
             "and an exposure sees each of them elsewhere",
             &buildSparksCase,
             kYardSky,

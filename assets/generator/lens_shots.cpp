@@ -220,7 +220,7 @@ constexpr std::array kLensShots = {
     LensShot{
         "near",
         "Post and ball before a sharp room",
-        "What is near is spread by up to 10 px over what is in focus.",
+        "Near surfaces are spread by up to 10 px over those in focus.",
         kPinkRoom,
         &furnishNear},
     LensShot{

@@ -103,8 +103,8 @@ ScriptEvent readEvent(const json::JsonNode& node, io::Reach reach) {
     take("screenshot", [&](const json::JsonNode& n) { return readScreenshot(n, reach); });
     if (kinds != 1)
         node.fail(
-            "must tell one of key, button, pointer, wheel, leftStick, rightStick, resize, window, "
-            "screenshot; it tells {}",
+            "must have one of key, button, pointer, wheel, leftStick, rightStick, resize, window, "
+            "screenshot; it has {}",
             kinds
         );
     if (object.find("action") && !object.find("key") && !object.find("button"))

@@ -18,7 +18,7 @@ class KeptPicture : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
         return {true, "a later frame shows the picture"};
     }
 

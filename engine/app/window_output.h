@@ -73,7 +73,7 @@ class WindowOutput : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
         return {true, "the picture is shown"};
     }
 

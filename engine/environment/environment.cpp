@@ -17,7 +17,7 @@ namespace {
 
 using core::makeError;
 
-constexpr float kMostHalf = 65504.0f;
+constexpr float kMaxHalf = 65504.0f;
 
 core::Status validate(const image::Image& picture, const EnvironmentSettings& settings) {
     // In words, since a glTF file and the command line name the settings differently.
@@ -30,12 +30,12 @@ core::Status validate(const image::Image& picture, const EnvironmentSettings& se
                 "{} of {} must lie in [{}, {}]", what, value, range.lowest, range.highest
             );
     }
-    if (picture.width < kLeastPictureWidth || picture.width > kMostPictureWidth)
+    if (picture.width < kMinPictureWidth || picture.width > kMaxPictureWidth)
         return makeError(
             "it is {} wide; an environment is {} to {}",
             core::countOf(picture.width, "pixel"),
-            kLeastPictureWidth,
-            kMostPictureWidth
+            kMinPictureWidth,
+            kMaxPictureWidth
         );
     if (picture.width != 2 * picture.height)
         return makeError(
@@ -55,8 +55,8 @@ image::Image clean(const image::Image& picture, float intensity) {
             const float value =
                 picture.pixels[i * picture.channels + (picture.channels < 3 ? 0 : c)];
             // Written so that NaN gives 0. Bounded first: infinity times 0 is NaN.
-            const float bounded = value > 0.0f ? std::min(value, kMostHalf) : 0.0f;
-            result.pixels[i * 3 + c] = std::min(bounded * intensity, kMostHalf);
+            const float bounded = value > 0.0f ? std::min(value, kMaxHalf) : 0.0f;
+            result.pixels[i * 3 + c] = std::min(bounded * intensity, kMaxHalf);
         }
     return result;
 }
@@ -65,7 +65,7 @@ scene::DirectionPicture pack(const image::Image& picture) {
     image::Image rgba(picture.width, picture.height, 4);
     for (size_t i = 0; i < size_t(picture.width) * picture.height; ++i) {
         for (uint32_t c = 0; c < 3; ++c)
-            rgba.pixels[i * 4 + c] = std::min(picture.pixels[i * 3 + c], kMostHalf);
+            rgba.pixels[i * 4 + c] = std::min(picture.pixels[i * 3 + c], kMaxHalf);
         rgba.pixels[i * 4 + 3] = 1.0f;
     }
     return {picture.width, picture.height, image::packHalf(rgba)};
@@ -110,7 +110,7 @@ core::Result<scene::Environment>
 makeEnvironment(image::Image picture, const EnvironmentSettings& settings) {
     SHUTTER_TRY(validate(picture, settings));
     picture = clean(picture, static_cast<float>(settings.intensity));
-    while (picture.width > kMostWidth)
+    while (picture.width > kMaxWidth)
         picture = halve(picture);
     scene::Environment environment = gather(picture, picture);
     const double angle = -glm::radians(settings.rotationDegrees);

@@ -13,10 +13,10 @@
 namespace shutter::environment {
 
 /// Widest background: every device takes it. Wider pictures are halved.
-inline constexpr uint32_t kMostWidth = 4096;
+inline constexpr uint32_t kMaxWidth = 4096;
 /// Smallest and largest picture that is read.
-inline constexpr uint32_t kLeastPictureWidth = 8;
-inline constexpr uint32_t kMostPictureWidth = 32768;
+inline constexpr uint32_t kMinPictureWidth = 8;
+inline constexpr uint32_t kMaxPictureWidth = 32768;
 /// Width of a sky: the sun's disc is three texels wide.
 inline constexpr uint32_t kSkyWidth = 2048;
 

@@ -51,7 +51,7 @@ using std::numbers::pi;
 /// For the first filtered level; each level above has a quarter of the texels and takes twice as
 /// many.
 constexpr uint32_t kSamples = 64;
-constexpr uint32_t kMostSamples = 512;
+constexpr uint32_t kMaxSamples = 512;
 
 /// A direction of light about the axis of what mirrors it.
 struct LobeSample {
@@ -183,7 +183,7 @@ std::vector<image::Image> prefilterMirrored(const image::Image& picture) {
     for (uint32_t i = 1; i < count; ++i)
         mirrored.push_back(filterAll(
             pyramid,
-            listSamples(double(i) / (count - 1), std::min(kSamples << (i - 1), kMostSamples)),
+            listSamples(double(i) / (count - 1), std::min(kSamples << (i - 1), kMaxSamples)),
             pyramid[first].width >> i
         ));
     return mirrored;

@@ -14,7 +14,7 @@ namespace {
 using math::dvec3;
 using std::numbers::pi;
 
-constexpr double kLeastElevation = pi / 180.0;
+constexpr double kMinElevation = pi / 180.0;
 
 /// Perez et al. 1993, by x, y and Y. \param cosine of the angle from the zenith, above 0
 /// \param gamma angle from the sun
@@ -68,9 +68,9 @@ double directIlluminance(double elevation) {
 } // namespace
 
 Sky::Sky(const SkySettings& settings) {
-    const double t = std::clamp(settings.turbidity, kLeastTurbidity, kMostTurbidity);
+    const double t = std::clamp(settings.turbidity, kMinTurbidity, kMaxTurbidity);
     const double elevation =
-        std::max(std::asin(std::clamp(settings.toSun.y, -1.0, 1.0)), kLeastElevation);
+        std::max(std::asin(std::clamp(settings.toSun.y, -1.0, 1.0)), kMinElevation);
     const double azimuth = std::atan2(settings.toSun.x, settings.toSun.z);
     mToSun = {
         std::cos(elevation) * std::sin(azimuth),
@@ -96,10 +96,10 @@ Sky::Sky(const SkySettings& settings) {
                        (direction.y * texelSolidAngle(uint32_t(row), 4 * kSteps, 2 * kSteps));
         }
     mGround = settings.groundAlbedo * math::vec3(falling / pi);
-    const double beside = luminanceOf(dvec3(aboveHorizon(mToSun)));
+    const double skyNearSun = luminanceOf(dvec3(aboveHorizon(mToSun)));
     const dvec3 disc = sun / (pi * kSunRadius * kSunRadius);
     const double bright = std::max(luminanceOf(disc), 1.0e-12);
-    mDisc = math::vec3(disc * std::min(kDiscMost * beside / bright, 1.0));
+    mDisc = math::vec3(disc * std::min(kMaxDiscRatio * skyNearSun / bright, 1.0));
 }
 
 math::vec3 Sky::aboveHorizon(math::dvec3 direction) const {

@@ -8,11 +8,11 @@
 
 namespace shutter::environment {
 
-inline constexpr double kLeastTurbidity = 1.7; ///< a clear sky in the mountains
-inline constexpr double kMostTurbidity = 10.0; ///< haze
+inline constexpr double kMinTurbidity = 1.7;  ///< a clear sky in the mountains
+inline constexpr double kMaxTurbidity = 10.0; ///< haze
 
 struct SkySettings {
-    double turbidity = 2.5;           ///< [kLeastTurbidity, kMostTurbidity]
+    double turbidity = 2.5;           ///< [kMinTurbidity, kMaxTurbidity]
     math::dvec3 toSun{0.0, 1.0, 0.0}; ///< unit, world
     math::vec3 sunIlluminance{1.0f};  ///< from the scene's sun on a surface facing it; linear
     double intensity = 1.0;           ///< factor over the physical sky, [0, 1000]
@@ -29,7 +29,7 @@ class Sky {
     /// \param direction unit; below the horizon lies ground, lit by sun and sky
     [[nodiscard]] math::vec3 radianceOf(math::dvec3 direction) const;
 
-    /// Radiance of the sun's disc, at most kDiscMost times the radiance of the brightest sky.
+    /// Radiance of the sun's disc, at most kMaxDiscRatio times the radiance of the brightest sky.
     [[nodiscard]] math::vec3 discRadiance() const { return mDisc; }
 
     /// Unit; where the disc is drawn.
@@ -49,7 +49,7 @@ class Sky {
 inline constexpr double kSunRadius = 0.00465; ///< radians, seen from the earth
 /// The sun is about 10^5 times as bright as the sky, which exceeds the range of half floats; this
 /// clamped value is white at any exposure that shows the sky.
-inline constexpr double kDiscMost = 500.0;
+inline constexpr double kMaxDiscRatio = 500.0;
 
 /// Equirectangular pictures: one for lighting, `width` / 4 wide because only the sun is sharp in a
 /// sky; and the background, `width` wide, with the sun's disc, whose light comes from the scene's

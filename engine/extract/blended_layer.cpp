@@ -105,7 +105,7 @@ class LayerPlanner {
         uint32_t count = countInstants();
         if (mLayer.readsInstants)
             count = fitLayer(count);
-        mLayer.partCount = mLayer.readsInstants ? std::min(count, shader::kMostSurfaceParts) : 1;
+        mLayer.partCount = mLayer.readsInstants ? std::min(count, shader::kMaxSurfaceParts) : 1;
         addInstants(count);
         addItems();
         return std::move(mLayer);
@@ -147,7 +147,7 @@ class LayerPlanner {
     uint32_t countInstants() const {
         if (mLayer.readsInstants && mIsHidden)
             return mLimits.instants;
-        const uint32_t least = mLayer.readsInstants ? shader::kMostSurfaceParts : 1;
+        const uint32_t least = mLayer.readsInstants ? shader::kMaxSurfaceParts : 1;
         const double wanted = std::ceil(mLayer.longestWayPx / kLayerStepPx);
         return std::min(
             std::max(
@@ -162,7 +162,7 @@ class LayerPlanner {
     uint32_t fitLayer(uint32_t count) {
         shader::InstantSurfaces wanted = mLayer.surfaces();
         wanted.instantCount = count;
-        wanted.partCount = shader::kMostSurfaceParts;
+        wanted.partCount = shader::kMaxSurfaceParts;
         if (const uint32_t fitting = fitInstants(wanted, mLimits.surfaceBytes))
             return fitting;
         mLayer.readsInstants = false;
@@ -175,8 +175,8 @@ class LayerPlanner {
         const dmat4 clip = clipFromPicture(view, mScene.isPerspective, camera.near);
         const double raster = view.exposure.rasterTime;
         mEye = math::dvec3(mScene.motion.worldFromCamera(raster)[3]);
-        dmat4 worldFromEye(1.0);
-        worldFromEye[3] = dvec4(mEye, 1.0);
+        dmat4 worldFromRelWorld(1.0);
+        worldFromRelWorld[3] = dvec4(mEye, 1.0);
         const dmat4 rasterPicture = pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
         for (uint32_t i = 0; i < count; ++i) {
             const double s = scene::invertLight(view.exposure, (i + 0.5) / double(count));
@@ -184,11 +184,12 @@ class LayerPlanner {
             if (mLimits.leastInstants > 1)
                 jittered.jitterPx += math::halton23(i + 1) - 0.5;
             const dmat4 picture = pictureFromWorldAt(mScene.world, jittered, mScene.motion, s);
-            const dmat4 test =
-                glm::transpose((mLayer.readsInstants ? picture : rasterPicture) * worldFromEye);
+            const dmat4 test = glm::transpose(
+                (mLayer.readsInstants ? picture : rasterPicture) * worldFromRelWorld
+            );
             shader::LayerInstant& one = mLayer.instants.emplace_back();
             for (int row = 0; row < 3; ++row)
-                one.testFromEye[row] = math::vec4(test[row]);
+                one.testFromRelWorld[row] = math::vec4(test[row]);
             one.time = float(s);
             one.weight = 1.0f / float(count);
             mTimes.push_back(s);
@@ -219,16 +220,16 @@ class LayerPlanner {
 
     void addPlaces(uint32_t row) {
         const ecs::Entity entity = mScene.frame.entityHandles[row];
-        const bool isStill = !mScene.motion.mayObjectMove(entity);
+        const bool isStatic = !mScene.motion.mayObjectMove(entity);
         for (size_t i = 0; i < mTimes.size(); ++i) {
-            const dmat4 world = isStill ? mScene.frame.worldFromObject[row]
-                                        : mScene.motion.worldFromObject(entity, mTimes[i]);
+            const dmat4 world = isStatic ? mScene.frame.worldFromObject[row]
+                                         : mScene.motion.worldFromObject(entity, mTimes[i]);
             shader::LayerPlace& place = mLayer.places.emplace_back();
             place.clipFromObject = math::mat4(mClips[i] * world);
             dmat4 eye = world;
             eye[3] -= dvec4(mEye, 0.0);
             for (int axis = 0; axis < 3; ++axis)
-                place.eyeFromObject[axis] =
+                place.relWorldFromObject[axis] =
                     math::vec4(eye[0][axis], eye[1][axis], eye[2][axis], eye[3][axis]);
         }
     }

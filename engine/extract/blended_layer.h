@@ -43,7 +43,8 @@ struct BlendedLayer {
     uint32_t partCount = 1; ///< of the exposure, each composited over its own background
     /// The surfaces in front of or behind the layer differ between the instants: depths per instant
     /// and colours per part are looked up (shaders/common/instant_surfaces.glsl). Otherwise the
-    /// layer is tested against the raster's depth, and testFromEye maps to the raster's picture.
+    /// layer is tested against the raster's depth, and testFromRelWorld maps to the raster's
+    /// picture.
     bool readsInstants = false;
     std::vector<LayerItem> items; ///< nearest first
     std::vector<shader::LayerPlace> places;

@@ -76,7 +76,7 @@ bool contains(const math::Bounds& bounds, const dvec3& point) {
 /// is in the box.
 bool isInSightBefore(const math::dmat4& clipFromObject, const math::Bounds& bounds, double depth) {
     std::array<dvec4, 8> corners;
-    bool isFar = true;
+    bool isDirectional = true;
     for (size_t i = 0; i < corners.size(); ++i) {
         corners[i] = clipFromObject * dvec4(
                                           i & 1 ? bounds.max.x : bounds.min.x,
@@ -84,9 +84,9 @@ bool isInSightBefore(const math::dmat4& clipFromObject, const math::Bounds& boun
                                           i & 4 ? bounds.max.z : bounds.min.z,
                                           1.0
                                       );
-        isFar = isFar && corners[i].w >= depth;
+        isDirectional = isDirectional && corners[i].w >= depth;
     }
-    if (isFar)
+    if (isDirectional)
         return false;
     if (contains(bounds, findEye(clipFromObject)))
         return true;
@@ -106,7 +106,7 @@ bool isInSightBefore(const math::dmat4& clipFromObject, const math::Bounds& boun
 struct Lens {
     math::dmat4 clipFromWorld{1.0};
     bool spreadsFar = false;   ///< what is infinitely far away
-    double nearestSharp = 0.0; ///< what is nearer it spreads over more than kLeastDefocusPx, metres
+    double nearestSharp = 0.0; ///< what is nearer it spreads over more than kMinDefocusPx, metres
 };
 
 Lens makeLens(
@@ -128,9 +128,9 @@ Lens makeLens(
         view.height / (2.0 * std::abs(computeHalfExtents(camera, yFov, view).y));
     lens.spreadsFar =
         !(scene::computeConfusionDiameter(opened, radius, kFarthestDepth, pixelsPerUnit) <=
-          kLeastDefocusPx);
+          kMinDefocusPx);
     lens.nearestSharp =
-        1.0 / (1.0 / opened.focusDistance + kLeastDefocusPx / (2.0 * pixelsPerUnit * radius));
+        1.0 / (1.0 / opened.focusDistance + kMinDefocusPx / (2.0 * pixelsPerUnit * radius));
     return lens;
 }
 

@@ -8,9 +8,9 @@
 namespace shutter::extract {
 
 /// Circles of confusion up to this diameter cannot be told from none, pixels.
-inline constexpr double kLeastDefocusPx = 0.5;
+inline constexpr double kMinDefocusPx = 0.5;
 
-/// Whether the lens may spread something in the picture over more than kLeastDefocusPx: what lies
+/// Whether the lens may spread something in the picture over more than kMinDefocusPx: what lies
 /// in the bounds of an entity that is drawn, where these are in sight, or infinitely far away.
 /// False without ViewRequest::usesLens. Bounds that hold the camera count as touching it: any open
 /// lens spreads them. \param motion of the view's exposure

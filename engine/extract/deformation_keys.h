@@ -29,7 +29,7 @@ struct DeformationKeys {
 };
 
 struct DeformedMotion {
-    MotionKeys object; ///< eyeFromObject; its swept box holds the deformed mesh
+    MotionKeys object; ///< relWorldFromObject; its swept box holds the deformed mesh
     DeformationKeys shape;
 };
 

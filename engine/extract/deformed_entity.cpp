@@ -116,7 +116,7 @@ std::optional<DeformedEntity> poseEntity(
     const scene::ExposureMotion& motion,
     ecs::Entity entity,
     const scene::PoseReach& reach,
-    const DeformationTimes& times
+    const ShutterTimes& times
 ) {
     DeformedEntity result;
     result.reach = &reach;

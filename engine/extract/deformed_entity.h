@@ -28,7 +28,7 @@ struct DeformedEntity {
 };
 
 /// Shutter times of a frame's three shapes, [0, 1].
-struct DeformationTimes {
+struct ShutterTimes {
     double open = 0.0;
     double raster = 1.0;
     double close = 1.0;
@@ -41,7 +41,7 @@ struct DeformationTimes {
     const scene::ExposureMotion& motion,
     ecs::Entity entity,
     const scene::PoseReach& reach,
-    const DeformationTimes& times
+    const ShutterTimes& times
 );
 
 /// Every weight, and every joint that deforms something, is.

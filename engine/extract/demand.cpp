@@ -17,7 +17,7 @@ namespace shutter::extract {
 namespace {
 
 /// Above this count, movers are not tested one by one.
-constexpr size_t kMostMovers = 64;
+constexpr size_t kMaxMovers = 64;
 
 constexpr double kMarginPx = 1.0;
 
@@ -47,9 +47,9 @@ ScreenBox findBox(const ExtractedFrame& frame, const SceneLayout& layout, uint32
         );
         const math::vec4 clip = entity.clipFromObjectRaster * point;
         const math::vec3 eye(
-            glm::dot(entity.eyeFromObject[0], point),
-            glm::dot(entity.eyeFromObject[1], point),
-            glm::dot(entity.eyeFromObject[2], point)
+            glm::dot(entity.relWorldFromObject[0], point),
+            glm::dot(entity.relWorldFromObject[1], point),
+            glm::dot(entity.relWorldFromObject[2], point)
         );
         const double depth = glm::dot(eye, math::vec3(forward));
         box.nearest = std::min(box.nearest, depth);
@@ -97,19 +97,19 @@ template <class Visit> bool visitRows(const std::vector<DrawItem>& draws, Visit&
 
 core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layout) {
     if (!frame.blended.empty())
-        return {true, "blended surfaces may lie before or behind what moves"};
+        return {true, "blended surfaces may lie before or behind movers"};
     std::vector<ScreenBox> movers;
     const auto addMover = [&](uint32_t row) {
         if (frame.entities[row].motion != shader::kNoMotion)
             movers.push_back(findBox(frame, layout, row));
-        return movers.size() > kMostMovers;
+        return movers.size() > kMaxMovers;
     };
-    const bool cameraMoves = !frame.stillMotions.empty();
+    const bool cameraMoves = !frame.staticMotions.empty();
     if (visitRows(frame.opaque.moving, addMover) ||
         (cameraMoves && visitRows(frame.opaque.still, addMover)))
-        return {true, fmt::format("more than {} entities move in the picture", kMostMovers)};
+        return {true, fmt::format("more than {} entities move in the picture", kMaxMovers)};
     if (!movers.empty() && (frame.constants.flags & shader::kFrameEnvironment) != 0)
-        return {true, "an environment comes into sight behind what moves"};
+        return {true, "an environment comes into sight behind movers"};
     const auto isRevealed = [&](uint32_t row) {
         const ScreenBox box = findBox(frame, layout, row);
         return std::any_of(movers.begin(), movers.end(), [&](const ScreenBox& mover) {
@@ -117,8 +117,8 @@ core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layo
         });
     };
     if (visitRows(frame.opaque.still, isRevealed) || visitRows(frame.opaque.moving, isRevealed))
-        return {true, "surfaces may come into sight behind what moves"};
-    return {false, "nothing but sky lies behind what moves"};
+        return {true, "surfaces may come into sight behind movers"};
+    return {false, "nothing but sky lies behind movers"};
 }
 
 SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {

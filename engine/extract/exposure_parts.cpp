@@ -34,7 +34,7 @@ using scene::Jump;
 /// Shortest way that is seen, of kKeyTolerancePx: a quarter of a pixel.
 constexpr double kSeenTolerances = 16.0;
 /// How much longer the way of a jump is than those of as much time before it and after it.
-constexpr double kLeastSpeedUp = 8.0;
+constexpr double kMinSpeedUp = 8.0;
 
 double findLargestScale(const dmat4& matrix) {
     return std::max(
@@ -57,7 +57,7 @@ bool isAbrupt(const Jump& jump, double way, const WayBetween& wayBetween) {
     const double around = std::max(
         wayBetween(jump.before - length, jump.before), wayBetween(jump.after, jump.after + length)
     );
-    return way > kLeastSpeedUp * around;
+    return way > kMinSpeedUp * around;
 }
 
 /// Decides whether a jump during the exposure is visible: a surface in two places, with no motion
@@ -83,7 +83,7 @@ class JumpSight {
   private:
     /// An entity where it can be drawn.
     struct Posed {
-        math::dmat4 eyeFromObject{1.0};
+        math::dmat4 relWorldFromObject{1.0};
         scene::Deformation shape;
         math::Bounds bounds; ///< object space
     };
@@ -94,7 +94,7 @@ class JumpSight {
     [[nodiscard]] bool isInView(const std::optional<Posed>& posed, double seconds) const;
     /// Metres; an upper bound.
     [[nodiscard]] double measureWay(const Posed& from, const Posed& to, uint32_t mesh) const;
-    [[nodiscard]] math::dmat4 eyeFromCameraAt(double seconds) const;
+    [[nodiscard]] math::dmat4 relWorldFromCameraAt(double seconds) const;
     [[nodiscard]] double shutterTimeOf(double seconds) const;
 
     const scene::World& mWorld;
@@ -104,7 +104,7 @@ class JumpSight {
     const scene::Camera& mCamera;
     KeyTolerance mTolerance;
     math::Bounds mNearView; ///< the camera's view volume from the near plane, in its own space
-    math::dvec3 mEye{0.0};  ///< world space: origin of eye space
+    math::dvec3 mEye{0.0};  ///< world space: origin of camera-relative space
 };
 
 JumpSight::JumpSight(
@@ -134,7 +134,7 @@ double JumpSight::shutterTimeOf(double seconds) const {
     return (seconds - exposure.open) / (exposure.close - exposure.open);
 }
 
-dmat4 JumpSight::eyeFromCameraAt(double seconds) const {
+dmat4 JumpSight::relWorldFromCameraAt(double seconds) const {
     dmat4 view = mMotion.worldFromCamera(shutterTimeOf(seconds));
     view[3] -= math::dvec4(mEye, 0.0);
     return view;
@@ -144,10 +144,10 @@ std::optional<JumpSight::Posed>
 JumpSight::poseAt(ecs::Entity entity, uint32_t mesh, double seconds) const {
     const double s = shutterTimeOf(seconds);
     Posed posed;
-    posed.eyeFromObject = mMotion.worldFromObject(entity, s);
-    if (!isDrawable(posed.eyeFromObject))
+    posed.relWorldFromObject = mMotion.worldFromObject(entity, s);
+    if (!isDrawable(posed.relWorldFromObject))
         return std::nullopt;
-    posed.eyeFromObject[3] -= math::dvec4(mEye, 0.0);
+    posed.relWorldFromObject[3] -= math::dvec4(mEye, 0.0);
     posed.bounds = mLayout.bounds[mesh];
     if (!scene::isDeformable(mWorld, entity))
         return posed;
@@ -165,19 +165,19 @@ bool JumpSight::isInView(const std::optional<Posed>& posed, double seconds) cons
     // Casters outside of the picture may cast a shadow into it.
     if (mView.shadows.mode != ShadowMode::None)
         return true;
-    const dmat4 clipFromEye =
+    const dmat4 clipFromRelWorld =
         makeProjection(mCamera, mMotion.cameraYFov(shutterTimeOf(seconds)), mView) *
-        glm::inverse(eyeFromCameraAt(seconds));
-    return !isOutsideView(clipFromEye * posed->eyeFromObject, posed->bounds);
+        glm::inverse(relWorldFromCameraAt(seconds));
+    return !isOutsideView(clipFromRelWorld * posed->relWorldFromObject, posed->bounds);
 }
 
 double JumpSight::measureWay(const Posed& from, const Posed& to, uint32_t mesh) const {
     Bounds bounds = from.bounds;
     bounds.add(to.bounds);
-    const double way = measureDeviation(from.eyeFromObject, to.eyeFromObject, bounds);
+    const double way = measureDeviation(from.relWorldFromObject, to.relWorldFromObject, bounds);
     if (from.shape.isRest())
         return way;
-    return way + findLargestScale(to.eyeFromObject) *
+    return way + findLargestScale(to.relWorldFromObject) *
                      measureDeformationDeviation(
                          to.shape, from.shape, from.shape, 0.5, mLayout.reaches.at(mesh)
                      );
@@ -195,13 +195,13 @@ bool JumpSight::sees(ecs::Entity entity, uint32_t mesh, const Jump& jump) const 
         return false;
     if (before.has_value() != after.has_value()) {
         const Posed& there = before ? *before : *after;
-        const Bounds swept = math::transformBounds(there.eyeFromObject, there.bounds);
+        const Bounds swept = math::transformBounds(there.relWorldFromObject, there.bounds);
         return glm::length(swept.size()) > kSeenTolerances * mTolerance.of(swept);
     }
     if (!before)
         return false;
-    Bounds swept = math::transformBounds(before->eyeFromObject, before->bounds);
-    swept.add(math::transformBounds(after->eyeFromObject, after->bounds));
+    Bounds swept = math::transformBounds(before->relWorldFromObject, before->bounds);
+    swept.add(math::transformBounds(after->relWorldFromObject, after->bounds));
     const double way = measureWay(*before, *after, mesh);
     return way > kSeenTolerances * mTolerance.of(swept) &&
            isAbrupt(jump, way, [&](double from, double to) {
@@ -213,7 +213,7 @@ bool JumpSight::sees(ecs::Entity entity, uint32_t mesh, const Jump& jump) const 
 
 bool JumpSight::seesCamera(const Jump& jump) const {
     const auto wayBetween = [&](double from, double to) {
-        return measureDeviation(eyeFromCameraAt(from), eyeFromCameraAt(to), mNearView);
+        return measureDeviation(relWorldFromCameraAt(from), relWorldFromCameraAt(to), mNearView);
     };
     // From the near plane a displacement shows most, and turning as much as anywhere.
     KeyTolerance nearest = mTolerance;
@@ -340,7 +340,7 @@ measureLight(const ExposureInterval& exposure, const std::vector<Jump>& parts) {
     for (const auto& [open, close] : parts) {
         const double light =
             scene::measureLightBefore(exposure, close) - scene::measureLightBefore(exposure, open);
-        if (light >= scene::kLeastLight)
+        if (light >= scene::kMinLight)
             stretches.push_back({open, close, light});
     }
     while (stretches.size() > kMaxExposureParts)

@@ -22,7 +22,7 @@ struct ExposurePart {
 };
 
 /// The last one is the part that holds the frame's raster instant, or is the nearest to it; the
-/// others are in order of time; parts with less than scene::kLeastLight are left out. Empty:
+/// others are in order of time; parts with less than scene::kMinLight are left out. Empty:
 /// nothing jumps, and the exposure is not split. Ignored are jumps of less than a quarter of a
 /// pixel, jumps that are not visible, lights, and entities without a past (history.h). After a
 /// camera cut nothing moves.

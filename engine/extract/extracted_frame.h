@@ -75,7 +75,7 @@ struct ViewRequest {
     std::optional<double> instant;
     /// Where the picture is taken and its motion begins and ends, for a part of the exposure;
     /// nothing: all of it. `instant` takes precedence.
-    std::optional<DeformationTimes> part{};
+    std::optional<ShutterTimes> part{};
     uint32_t width = 1280; ///< pixels, above 0
     uint32_t height = 720; ///< pixels, above 0
     FrameFit frameFit = FrameFit::Whole;
@@ -161,18 +161,18 @@ struct RowChanges {
 struct ExtractedFrame {
     std::vector<shader::EntityRow> entities;
     /// Rows that move in the picture; EntityRow::motion indexes the two lists as one.
-    std::vector<shader::EntityMotion> stillMotions; ///< ... while they are static in the world
+    std::vector<shader::EntityMotion> staticMotions; ///< ... while they are static in the world
     std::vector<shader::EntityMotion> movingMotions;
     RowChanges changes; ///< of `entities`
     /// Rows that move, deform, have a MotionBlur's scale, or were written to since the rows were
     /// listed; in rising order. The others are static in the world.
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows are static; no two frame extractors have the same.
-    uint64_t stillSet = 0;
-    /// Changes whenever a static row changes, also in eye space, as when the camera
+    uint64_t staticSet = 0;
+    /// Changes whenever a static row changes, also in camera-relative space, as when the camera
     /// moves; except for EntityRow::instanceMask, which rows that are static in the world have
     /// only if the camera moves.
-    uint64_t stillRevision = 0;
+    uint64_t staticRevision = 0;
     /// With Jittered::Static: whether the camera has not moved since the previous frame and does
     /// not move.
     bool isCameraAtRest = false;

@@ -32,7 +32,7 @@ bool hasTriangles(const SceneLayout& layout, uint32_t mesh) {
            layout.firstGeometry[mesh] != layout.firstGeometry[mesh + 1];
 }
 
-bool isStill(const ObjectPoses& poses) {
+bool isStatic(const ObjectPoses& poses) {
     return poses.still || (poses.open == poses.raster && poses.close == poses.raster);
 }
 
@@ -48,7 +48,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.entityMeshes.resize(mRows.size());
     mFrame.entityHandles.resize(mRows.size());
 
-    const WorldChanges changes = mWatch.look(world.registry);
+    const WorldChanges changes = mWatch.update(world.registry);
     mFrameView = std::make_unique<const FrameView>(world, request);
     const FrameView& view = *mFrameView;
     const Frame frame{world, layout, request, view};
@@ -91,10 +91,10 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
             return describeFullTable(frame.request.entityLimit);
     }
     // Behind those of static rows, whose number is known only now.
-    const auto stillMotions = static_cast<uint32_t>(mFrame.stillMotions.size());
+    const auto staticMotions = static_cast<uint32_t>(mFrame.staticMotions.size());
     for (const uint32_t row : mFrame.movingRows)
         if (mFrame.entities[row].motion != shader::kNoMotion)
-            mFrame.entities[row].motion += stillMotions;
+            mFrame.entities[row].motion += staticMotions;
     sortDraws(&DrawList::still);
     drawMoving(frame.layout);
     mListed = true;
@@ -105,7 +105,7 @@ void FrameExtractor::clear() {
     mFrame.entities.clear();
     mFrame.worldFromObject.clear();
     mFrame.atRest.clear();
-    mFrame.stillMotions.clear();
+    mFrame.staticMotions.clear();
     mFrame.movingMotions.clear();
     mFrame.movingRows.clear();
     mFrame.entityMeshes.clear();
@@ -115,9 +115,9 @@ void FrameExtractor::clear() {
     mFrame.blended.still.clear();
     mFrame.changes.all = true;
     mFrame.changes.rows.clear();
-    mFrame.stillSet = mFrame.stillRevision = takeRevision();
+    mFrame.staticSet = mFrame.staticRevision = takeRevision();
     mRows.clear();
-    mLatent.clear();
+    mHiddenRows.clear();
     mRowOfEntity.clear();
     mJoining.clear();
     mDescendants.clear();
@@ -134,14 +134,14 @@ bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
            frame.request.exposure.cap.findMover(entity) != nullptr;
 }
 
-std::optional<FrameExtractor::Posed>
+std::optional<FrameExtractor::PosedEntity>
 FrameExtractor::pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves) {
     const scene::ExposureMotion& motion = frame.view.motion();
     if (motion.isHidden(entity))
         return std::nullopt;
-    const DeformationTimes& times = frame.view.times();
+    const ShutterTimes& times = frame.view.times();
     const dmat4 raster = motion.worldFromObject(entity, times.raster);
-    Posed posed{ObjectPoses(raster), std::nullopt};
+    PosedEntity posed{ObjectPoses(raster), std::nullopt};
     if (evolves) {
         const auto poseAt = [&](double s) {
             return s == times.raster ? raster : motion.worldFromObject(entity, s);
@@ -162,10 +162,10 @@ void FrameExtractor::list(const Frame& frame, ecs::Entity entity, uint32_t mesh)
     if (entity.index >= mRowOfEntity.size())
         mRowOfEntity.resize(entity.index + size_t{1}, kNone);
     const bool moving = evolves(frame, entity);
-    std::optional<Posed> posed = pose(frame, entity, mesh, moving);
+    std::optional<PosedEntity> posed = pose(frame, entity, mesh, moving);
     if (!posed) {
-        mRowOfEntity[entity.index] = kLatent;
-        mLatent.push_back({entity, mesh, moving});
+        mRowOfEntity[entity.index] = kHiddenRow;
+        mHiddenRows.push_back({entity, mesh, moving});
         return;
     }
     const auto index = static_cast<uint32_t>(mRows.size());
@@ -203,8 +203,8 @@ void FrameExtractor::list(const Frame& frame, ecs::Entity entity, uint32_t mesh)
 bool FrameExtractor::refresh(const Frame& frame, const WorldChanges& changes) {
     if (!refreshWritten(frame, changes))
         return false;
-    for (const Latent& latent : mLatent)
-        if (latent.evolves && pose(frame, latent.entity, latent.mesh, true))
+    for (const HiddenRow& hidden : mHiddenRows)
+        if (hidden.evolves && pose(frame, hidden.entity, hidden.mesh, true))
             return false;
     refreshCapped(frame);
     takeOutOfStill();
@@ -220,7 +220,7 @@ uint32_t FrameExtractor::rowOf(uint32_t entity) const {
 void FrameExtractor::refreshCapped(const Frame& frame) {
     for (const auto& [entity, share] : frame.request.exposure.cap.movers) {
         const uint32_t index = rowOf(entity.index);
-        if (index == kNone || index == kLatent || mFrame.entityHandles[index] != entity)
+        if (index == kNone || index == kHiddenRow || mFrame.entityHandles[index] != entity)
             continue;
         mRows[index].evolves = true;
         if (!std::exchange(mRows[index].moving, true))
@@ -233,9 +233,10 @@ bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& chan
         // It is there: a component that was removed would have changed the structure.
         const uint32_t mesh = frame.world.registry.get<scene::MeshInstance>(entity).mesh;
         const uint32_t row = rowOf(entity.index);
-        const bool isAsListed = row == kNone ? !hasTriangles(frame.layout, mesh) ||
-                                                   scene::isAlwaysHidden(frame.world, entity)
-                                             : row != kLatent && mesh == mFrame.entityMeshes[row];
+        const bool isAsListed =
+            row == kNone
+                ? !hasTriangles(frame.layout, mesh) || scene::isAlwaysHidden(frame.world, entity)
+                : row != kHiddenRow && mesh == mFrame.entityMeshes[row];
         if (!isAsListed)
             return false;
     }
@@ -245,19 +246,20 @@ bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& chan
         mDescendants.build(frame.world.registry);
     for (const uint32_t entity : mDescendants.collect(changes.placed)) {
         const uint32_t row = rowOf(entity);
-        if (row == kLatent ? becomesDrawable(frame, entity)
-                           : row != kNone && !refreshRow(frame, row))
+        if (row == kHiddenRow ? becomesDrawable(frame, entity)
+                              : row != kNone && !refreshRow(frame, row))
             return false;
     }
     return true;
 }
 
 bool FrameExtractor::becomesDrawable(const Frame& frame, uint32_t entity) {
-    const auto latent = std::find_if(mLatent.begin(), mLatent.end(), [&](const Latent& one) {
-        return one.entity.index == entity;
-    });
-    latent->evolves = evolves(frame, latent->entity);
-    return pose(frame, latent->entity, latent->mesh, latent->evolves).has_value();
+    const auto hidden =
+        std::find_if(mHiddenRows.begin(), mHiddenRows.end(), [&](const HiddenRow& one) {
+            return one.entity.index == entity;
+        });
+    hidden->evolves = evolves(frame, hidden->entity);
+    return pose(frame, hidden->entity, hidden->mesh, hidden->evolves).has_value();
 }
 
 bool FrameExtractor::refreshRow(const Frame& frame, uint32_t index) {
@@ -291,13 +293,13 @@ void FrameExtractor::takeOutOfStill() {
         std::erase_if(draws->still, [&](const DrawItem& item) {
             return mRows[item.entity].moving;
         });
-    mFrame.stillSet = mFrame.stillRevision = takeRevision();
+    mFrame.staticSet = mFrame.staticRevision = takeRevision();
 }
 
 void FrameExtractor::placeStill(const Frame& frame) {
     mFrame.changes.all = true;
-    mFrame.stillRevision = takeRevision();
-    mFrame.stillMotions.clear();
+    mFrame.staticRevision = takeRevision();
+    mFrame.staticMotions.clear();
     mFrame.opaque.still.clear();
     mFrame.blended.still.clear();
     for (uint32_t row = 0; row < mRows.size(); ++row) {
@@ -311,7 +313,7 @@ void FrameExtractor::placeStill(const Frame& frame) {
 
 bool FrameExtractor::placeMoving(const Frame& frame) {
     mFrame.movingMotions.clear();
-    mFirstMovingMotion = static_cast<uint32_t>(mFrame.stillMotions.size());
+    mFirstMovingMotion = static_cast<uint32_t>(mFrame.staticMotions.size());
     size_t quiet = 0;
     for (const uint32_t index : mFrame.movingRows) {
         Row& row = mRows[index];
@@ -333,7 +335,7 @@ bool FrameExtractor::placeMoving(const Frame& frame) {
 }
 
 bool FrameExtractor::isAsBefore(
-    const scene::ExposureMotion& before, uint32_t index, const Posed& posed
+    const scene::ExposureMotion& before, uint32_t index, const PosedEntity& posed
 ) const {
     if (!mRows[index].evolves)
         return true;
@@ -343,7 +345,7 @@ bool FrameExtractor::isAsBefore(
            (!posed.shape || isSame(before.deformationAt(entity, raster), posed.shape->raster));
 }
 
-void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
+void FrameExtractor::place(const Frame& frame, uint32_t index, PosedEntity posed) {
     Row& row = mRows[index];
     shader::EntityRow& entry = mFrame.entities[index];
     const uint32_t mesh = mFrame.entityMeshes[index];
@@ -351,7 +353,7 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     const bool shapeChanges = posed.shape && posed.shape->changes;
     const bool deformedMirrored = posed.shape && posed.shape->mirrored;
     const scene::ExposureMotion* before = frame.view.before();
-    mFrame.atRest[index] = before && !row.written && !shapeChanges && isStill(posed.poses) &&
+    mFrame.atRest[index] = before && !row.written && !shapeChanges && isStatic(posed.poses) &&
                            isAsBefore(*before, index, posed);
     posed.poses.jitters = !before || mFrame.atRest[index];
     PlacedEntity placed = placeEntity(
@@ -364,7 +366,7 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     placed.row.firstGeometry = entry.firstGeometry;
     placed.row.handedness = row.mirrored ? -1.0f : 1.0f;
     if (placed.moves) {
-        auto& motions = row.moving ? mFrame.movingMotions : mFrame.stillMotions;
+        auto& motions = row.moving ? mFrame.movingMotions : mFrame.staticMotions;
         placed.row.motion =
             static_cast<uint32_t>(motions.size()) + (row.moving ? mFirstMovingMotion : 0);
         motions.push_back(placed.motion);

@@ -50,7 +50,7 @@ class FrameExtractor {
     };
 
     /// An entity that can be drawn, where it is.
-    struct Posed {
+    struct PosedEntity {
         ObjectPoses poses;
         std::optional<DeformedEntity> shape; ///< without row and mesh
     };
@@ -64,7 +64,7 @@ class FrameExtractor {
     };
 
     /// An entity that cannot be drawn now: it has no row.
-    struct Latent {
+    struct HiddenRow {
         ecs::Entity entity;
         uint32_t mesh = 0;
         bool evolves = false;
@@ -72,7 +72,7 @@ class FrameExtractor {
 
     /// In mRowOfEntity; smaller values are rows.
     static constexpr uint32_t kNone = 0xFFFFFFFFu;
-    static constexpr uint32_t kLatent = 0xFFFFFFFEu;
+    static constexpr uint32_t kHiddenRow = 0xFFFFFFFEu;
 
     // Rebuilds the list of rows.
     core::Status rebuild(const Frame& frame);
@@ -83,7 +83,7 @@ class FrameExtractor {
     bool refresh(const Frame& frame, const WorldChanges& changes);
     bool refreshWritten(const Frame& frame, const WorldChanges& changes);
     bool refreshRow(const Frame& frame, uint32_t index);
-    /// A row, kLatent or kNone. \param entity index
+    /// A row, kHiddenRow or kNone. \param entity index
     [[nodiscard]] uint32_t rowOf(uint32_t entity) const;
     bool becomesDrawable(const Frame& frame, uint32_t entity);
     /// Entities with a share of the cap count as moving, even if static in the world.
@@ -94,12 +94,12 @@ class FrameExtractor {
 
     static bool evolves(const Frame& frame, ecs::Entity entity);
     /// Nothing for what cannot be drawn.
-    static std::optional<Posed>
+    static std::optional<PosedEntity>
     pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves);
     /// Whether the entity was there one frame ago, in the same shape.
     [[nodiscard]] bool
-    isAsBefore(const scene::ExposureMotion& before, uint32_t index, const Posed& posed) const;
-    void place(const Frame& frame, uint32_t index, Posed posed);
+    isAsBefore(const scene::ExposureMotion& before, uint32_t index, const PosedEntity& posed) const;
+    void place(const Frame& frame, uint32_t index, PosedEntity posed);
     void addDraws(const SceneLayout& layout, uint32_t index);
     void sortDraws(std::vector<DrawItem> DrawList::*part);
     void drawMoving(const SceneLayout& layout);
@@ -107,8 +107,8 @@ class FrameExtractor {
 
     ExtractedFrame mFrame;
     std::vector<Row> mRows;
-    std::vector<Latent> mLatent;
-    std::vector<uint32_t> mRowOfEntity; ///< by entity index: a row, kLatent or kNone
+    std::vector<HiddenRow> mHiddenRows;
+    std::vector<uint32_t> mRowOfEntity; ///< by entity index: a row, kHiddenRow or kNone
     std::vector<uint32_t> mJoining;     ///< rows that count as moving ones from this frame on
     WorldWatch mWatch;
     MotionCheck mMotionCheck;

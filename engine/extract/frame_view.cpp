@@ -25,7 +25,7 @@ using math::dvec4;
 
 static_assert(sizeof(ViewMatrices) == (4 * 16 + 3) * sizeof(double), "compared by its bytes");
 
-DeformationTimes findPoseTimes(const ViewRequest& request) {
+ShutterTimes findPoseTimes(const ViewRequest& request) {
     if (request.instant)
         return {*request.instant, *request.instant, *request.instant};
     if (request.part)
@@ -177,19 +177,19 @@ bool FrameView::findCameraAtRest(const ViewRequest& request) const {
 }
 
 void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& request) {
-    const dmat4 worldFromEye = glm::translate(dmat4(1.0), mEye[1]);
-    const dmat4 clipFromEye = mMatrices.clipFromWorldJittered * worldFromEye;
+    const dmat4 worldFromRelWorld = glm::translate(dmat4(1.0), mEye[1]);
+    const dmat4 clipFromRelWorld = mMatrices.clipFromWorldJittered * worldFromRelWorld;
     // The translation is a difference of eyes, so that it is exact far from the world's origin.
-    const auto clipFromEyeAt = [&](int i) {
+    const auto clipFromRelWorldAt = [&](int i) {
         return math::mat4(
             mClipFromView[i] * dmat4(math::dmat3(mViewFromWorld[i])) *
             glm::translate(dmat4(1.0), mEye[1] - mEye[i])
         );
     };
-    mConstants.clipFromEye = math::mat4(clipFromEye);
-    mConstants.eyeFromClip = math::mat4(glm::inverse(clipFromEye));
-    mConstants.clipFromEyeOpen = clipFromEyeAt(0);
-    mConstants.clipFromEyeClose = clipFromEyeAt(2);
+    mConstants.clipFromRelWorld = math::mat4(clipFromRelWorld);
+    mConstants.relWorldFromClip = math::mat4(glm::inverse(clipFromRelWorld));
+    mConstants.clipFromRelWorldOpen = clipFromRelWorldAt(0);
+    mConstants.clipFromRelWorldClose = clipFromRelWorldAt(2);
     const bool perspective = camera.kind == scene::CameraKind::Perspective;
     // Clip w is the distance for a perspective camera and 1 for an orthographic one.
     const double minW = perspective ? camera.near : 0.5;
@@ -205,9 +205,10 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mConstants.lodBias = mConstants.staticLodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
     // Motion that ends where it began is detected at the raster instant.
-    const math::mat4 unmoved = clipFromEyeAt(1);
-    mMoves = mConstants.clipFromEyeOpen != unmoved || mConstants.clipFromEyeClose != unmoved ||
-             mEye[0] != mEye[1] || mEye[2] != mEye[1];
+    const math::mat4 unmoved = clipFromRelWorldAt(1);
+    mMoves = mConstants.clipFromRelWorldOpen != unmoved ||
+             mConstants.clipFromRelWorldClose != unmoved || mEye[0] != mEye[1] ||
+             mEye[2] != mEye[1];
 }
 
 bool isDrawable(const ObjectPoses& poses) {
@@ -229,7 +230,7 @@ PlacedEntity placeEntity(
     dmat4 eye = poses.raster;
     eye[3] -= dvec4(view.eye, 0.0);
     for (int i = 0; i < 3; ++i)
-        placed.row.eyeFromObject[i] = math::vec4(eye[0][i], eye[1][i], eye[2][i], eye[3][i]);
+        placed.row.relWorldFromObject[i] = math::vec4(eye[0][i], eye[1][i], eye[2][i], eye[3][i]);
     placed.row.motion = shader::kNoMotion;
 
     const bool still = poses.still &&

@@ -18,7 +18,7 @@ namespace shutter::extract {
 [[nodiscard]] bool isDrawable(const math::dmat4& matrix);
 
 /// \param world transform of the light's entity, finite
-/// \param origin of eye space, in the world
+/// \param origin of camera-relative space, in the world
 [[nodiscard]] shader::LightRow
 makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
@@ -71,7 +71,7 @@ class FrameView {
 
     [[nodiscard]] const scene::ExposureMotion& motion() const { return mMotion; }
 
-    [[nodiscard]] const DeformationTimes& times() const { return mTimes; }
+    [[nodiscard]] const ShutterTimes& times() const { return mTimes; }
 
     [[nodiscard]] const ViewMatrices& matrices() const { return mMatrices; }
 
@@ -100,7 +100,7 @@ class FrameView {
     scene::ExposureMotion mMotion;
     std::optional<scene::ExposureMotion> mBefore;
     bool mIsCameraAtRest = false;
-    DeformationTimes mTimes;
+    ShutterTimes mTimes;
     math::dmat4 mClipFromView[3];  ///< open, raster instant, close
     math::dmat4 mViewFromWorld[3]; ///< open, raster instant, close
     math::dvec3 mEye[3];

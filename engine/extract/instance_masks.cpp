@@ -36,7 +36,7 @@ std::vector<uint32_t> listMoving(const ExtractedFrame& frame) {
                 rows.push_back(draw.entity);
     };
     consider(frame.opaque.moving);
-    if (!frame.stillMotions.empty()) // the camera moves
+    if (!frame.staticMotions.empty()) // the camera moves
         consider(frame.opaque.still);
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
@@ -52,7 +52,7 @@ listForgotten(const ExtractedFrame& frame, const std::vector<uint32_t>& moving) 
             !std::binary_search(moving.begin(), moving.end(), row))
             rows.push_back(row);
     };
-    if (frame.stillMotions.empty())
+    if (frame.staticMotions.empty())
         std::for_each(frame.movingRows.begin(), frame.movingRows.end(), consider);
     else
         for (uint32_t row = 0; row < frame.changes.ownRows; ++row)
@@ -65,7 +65,7 @@ double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bou
     math::dmat4 matrix(1.0);
     for (int r = 0; r < 3; ++r)
         for (int column = 0; column < 4; ++column)
-            matrix[column][r] = double(row.eyeFromObject[r][column]);
+            matrix[column][r] = double(row.relWorldFromObject[r][column]);
     const math::Bounds placed = math::transformBounds(matrix, bounds);
     const double size = glm::length(placed.max - placed.min);
     const double share = size / std::max(glm::length(placed.centre()), 1.0e-9);

@@ -140,10 +140,10 @@ class Builder {
 
     /// What a pinhole sees at rest is seen elsewhere from other places of the lens.
     static void forgetStillness(InstantTables& tables) {
-        tables.raster.isStill = false;
+        tables.raster.isStatic = false;
         for (std::optional<LayerTables>* const layer : {&tables.second, &tables.last})
             if (*layer)
-                (*layer)->isStill = false;
+                (*layer)->isStatic = false;
     }
 
     [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {

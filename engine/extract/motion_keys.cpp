@@ -158,7 +158,7 @@ computeMotionKeys(const MatrixAt& matrixAt, const Bounds& bounds, const KeyToler
 }
 
 std::optional<MotionKeys> computeCameraKeys(
-    const MatrixAt& eyeFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
+    const MatrixAt& relWorldFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
 ) {
     // At the near plane the camera's translation has its largest effect on the picture, and its
     // rotation the same as anywhere.
@@ -170,7 +170,7 @@ std::optional<MotionKeys> computeCameraKeys(
     view.add(dvec3(corner.x, corner.y, 0.0));
     KeyTolerance own = tolerance;
     own.cameraPath = {};
-    return computeMotionKeys(eyeFromView, view, own);
+    return computeMotionKeys(relWorldFromView, view, own);
 }
 
 } // namespace shutter::extract

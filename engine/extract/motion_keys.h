@@ -29,25 +29,26 @@ inline constexpr uint32_t kProbeIntervals = 16;
 /// aliases with the other probes.
 inline constexpr double kOddPlace = 0.381966011250105;
 
-/// eyeFromObject at shutter time s in [0, 1].
+/// relWorldFromObject at shutter time s in [0, 1].
 using MatrixAt = std::function<math::dmat4(double s)>;
 
 struct MotionKeys {
     /// One: it is static. Else 2^n + 1 at uniform shutter times, both ends included.
     std::vector<shader::MotionKey> keys;
-    math::Bounds swept;         ///< eye space: holds the box at every shutter time
+    math::Bounds swept;         ///< camera-relative space: holds the box at every shutter time
     bool followsExactly = true; ///< false: kMaxKeyIntervals were not enough
 };
 
 /// How far apart two places may be that a picture shows as one.
 struct KeyTolerance {
-    std::vector<math::dvec3> cameraPath; ///< eye space: where the camera is during the exposure
-    double near = 0.0;                   ///< metres: nothing is seen from closer
-    double pixelAtOne = 0.0;             ///< width of a pixel per metre of distance (perspective)
-    double pixelAnywhere = 0.0;          ///< width of a pixel at any distance (orthographic)
+    std::vector<math::dvec3>
+        cameraPath;             ///< camera-relative space: where the camera is during the exposure
+    double near = 0.0;          ///< metres: nothing is seen from closer
+    double pixelAtOne = 0.0;    ///< width of a pixel per metre of distance (perspective)
+    double pixelAnywhere = 0.0; ///< width of a pixel at any distance (orthographic)
 
-    /// Tolerance in metres for a point inside `swept` (eye space): kKeyTolerancePx at the point
-    /// nearest to the camera, but not below the resolution of single precision there.
+    /// Tolerance in metres for a point inside `swept` (camera-relative space): kKeyTolerancePx at
+    /// the point nearest to the camera, but not below the resolution of single precision there.
     [[nodiscard]] double of(const math::Bounds& swept) const;
 };
 
@@ -59,10 +60,10 @@ struct KeyTolerance {
     const MatrixAt& matrixAt, const math::Bounds& bounds, const KeyTolerance& tolerance
 );
 
-/// Keys of the camera's rigid eyeFromView.
+/// Keys of the camera's rigid relWorldFromView.
 /// \param halfExtents of the view at distance 1 (perspective) or anywhere (orthographic)
 [[nodiscard]] std::optional<MotionKeys> computeCameraKeys(
-    const MatrixAt& eyeFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
+    const MatrixAt& relWorldFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
 );
 
 /// The matrix a shader interpolates at s in [0, 1].

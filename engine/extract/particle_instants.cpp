@@ -51,7 +51,7 @@ std::optional<shader::InstantSurfaces> planParticleInstants(
     wanted.originPx = math::uvec2(glm::floor(box.least));
     wanted.sizePx = math::uvec2(glm::ceil(box.most)) - wanted.originPx;
     wanted.instantCount = std::min(limits.instants, kMaxParticleInstants);
-    wanted.partCount = particles.hides ? shader::kMostSurfaceParts : 1;
+    wanted.partCount = particles.hides ? shader::kMaxSurfaceParts : 1;
     wanted.instantCount = fitInstants(wanted, limits.surfaceBytes);
     // Parts of as many instants each: particles are drawn in equal parts.
     if (wanted.instantCount > wanted.partCount)

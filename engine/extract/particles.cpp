@@ -261,9 +261,10 @@ class Extraction {
             const double s = moves ? double(i) / (count - 1) : view.times().raster;
             const auto [worldFromView, clipFromView] = placeCamera(mMotion, camera, mRequest, s);
             // A difference of eyes, so that it is exact far from the world's origin.
-            const dmat4 viewFromEye = dmat4(dmat3(glm::inverse(worldFromView))) *
-                                      glm::translate(dmat4(1.0), mEye - dvec3(worldFromView[3]));
-            mTables.cameras.emplace_back(clipFromView * viewFromEye);
+            const dmat4 viewFromRelWorld =
+                dmat4(dmat3(glm::inverse(worldFromView))) *
+                glm::translate(dmat4(1.0), mEye - dvec3(worldFromView[3]));
+            mTables.cameras.emplace_back(clipFromView * viewFromRelWorld);
         }
     }
 
@@ -313,9 +314,7 @@ class Extraction {
         const float way = glm::distance(math::vec2(*seen[0]), math::vec2(*seen[1])) +
                           glm::distance(math::vec2(*seen[1]), math::vec2(*seen[2]));
         // Corners of pictures, and the curve of the path between the three places.
-        const math::vec2 aside(
-            1.5f * std::max(radius, shader::kLeastParticleRadiusPx) + 0.5f * way
-        );
+        const math::vec2 aside(1.5f * std::max(radius, shader::kMinParticleRadiusPx) + 0.5f * way);
         least -= aside;
         most += aside;
         if (!(radius > 0.0f) || glm::any(glm::greaterThan(least, half)) ||
@@ -343,7 +342,7 @@ class Extraction {
             const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
             if (emitter.texture == shader::kNoParticleTexture)
                 continue;
-            const float radius = std::max(way->y, shader::kLeastParticleRadiusPx);
+            const float radius = std::max(way->y, shader::kMinParticleRadiusPx);
             const float turned = std::abs(row.spin * emitter.secondsPerExposure) * radius;
             most = std::max(most, std::ceil((way->x + turned) / (0.5f * radius)));
         }

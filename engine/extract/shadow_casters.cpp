@@ -23,7 +23,7 @@ constexpr double kThinnest = 0.02;
 /// centre are off by a sixteenth of their distance from it. Flat casters may turn farther: within
 /// their plane the lookup is exact.
 constexpr double kTurnOfPart = 0.125;
-constexpr double kMostTurnOfPart = 0.25; ///< however flat it is
+constexpr double kMaxTurnOfPart = 0.25; ///< however flat it is
 
 Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
     const math::Bounds box = math::transformBounds(worldFromObject, bounds);
@@ -70,7 +70,7 @@ dmat3 makeShape(const dmat4& worldFromObject, const math::Bounds& bounds) {
 }
 
 /// Where a shape is between those of shutter open, raster instant and close, as ShadowDraw has it.
-float findShapeShift(const DeformationTimes& times, double s) {
+float findShapeShift(const ShutterTimes& times, double s) {
     const double end = s < times.raster ? times.open : times.close;
     if (end == times.raster)
         return 0.0f;
@@ -149,7 +149,7 @@ countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const L
         }
         turned = std::max(turned, own);
     }
-    const double turn = std::min(kTurnOfPart / caster.thinness, kMostTurnOfPart);
+    const double turn = std::min(kTurnOfPart / caster.thinness, kMaxTurnOfPart);
     const double wanted = caster.deforms ? kMaxCasterParts : std::ceil(turned / turn);
     const auto parts =
         static_cast<uint32_t>(std::clamp(wanted, 0.0, double(std::min(kMaxCasterParts, count))));

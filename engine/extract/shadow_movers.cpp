@@ -90,7 +90,7 @@ void addRuns(
         for (size_t i = 0; i < movers.size(); ++i) {
             shader::ShadowMover& row = plan.movers[i];
             row.firstRun = static_cast<uint32_t>(plan.runs.size()) - first;
-            const std::vector<shader::ShadowRun> runs = makeRuns(
+            const std::vector<shader::CasterSpan> runs = makeRuns(
                 movers[i].caster,
                 movers[i].path,
                 layersOf(*light, i),
@@ -120,7 +120,7 @@ uint32_t addMovers(
     }
     std::vector<const PlacedLight*> far;
     for (const PlacedLight& light : lights)
-        if (light.isFar())
+        if (light.isDirectional())
             far.push_back(&light);
     addRuns(plan, movers, far);
     return moving;

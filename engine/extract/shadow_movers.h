@@ -20,10 +20,10 @@ struct PlacedLight {
     math::dvec3 position{0.0};
     math::dvec3 direction{0.0, 0.0, -1.0}; ///< unit
 
-    [[nodiscard]] bool isFar() const { return light.kind == scene::LightKind::Directional; }
+    [[nodiscard]] bool isDirectional() const { return light.kind == scene::LightKind::Directional; }
 
     [[nodiscard]] LightPlace place() const {
-        return isFar() ? LightPlace(-direction, 0.0) : LightPlace(position, 1.0);
+        return isDirectional() ? LightPlace(-direction, 0.0) : LightPlace(position, 1.0);
     }
 };
 

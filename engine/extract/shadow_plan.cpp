@@ -38,7 +38,7 @@ bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
 
 /// Texels of a mover's layer to a pixel of its shadow, and the least that a layer has on a side.
 constexpr double kLayerTexelsPerPixel = 1.5;
-constexpr uint32_t kLeastLayerSize = 16;
+constexpr uint32_t kMinLayerSize = 16;
 
 /// Plans one frame.
 class Planner {
@@ -154,7 +154,7 @@ class Planner {
             movers.end(),
             [](const ShadowCaster& a, const ShadowCaster& b) { return a.seenSize > b.seenSize; }
         );
-        mPlan.casterRevision = mFrame.stillSet;
+        mPlan.casterRevision = mFrame.staticSet;
         for (const ShadowCaster& mover : movers) {
             if (mMovers.size() < cap && fitsLayers(mover.sphere)) {
                 mMovers.push_back({mover, {}, {}});
@@ -168,7 +168,7 @@ class Planner {
 
     [[nodiscard]] bool fitsLayers(const Sphere& mover) const {
         return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
-            return light.isFar() || fitsPointLayer(light.position, mover);
+            return light.isDirectional() || fitsPointLayer(light.position, mover);
         });
     }
 
@@ -216,7 +216,7 @@ class Planner {
         const double near = kNearShare * std::max(glm::length(mScene.size()), 1.0e-3);
         shader::ShadowLight& row = mPlan.lights[light.index];
         row.firstMap = static_cast<uint32_t>(mPlan.maps.size());
-        if (light.isFar()) {
+        if (light.isDirectional()) {
             const math::dmat3 axes = glm::transpose(makeLightAxes(-light.direction));
             for (int i = 0; i < 3; ++i)
                 row.axes[i] = math::vec4(math::vec3(axes[i]), 0.0f);
@@ -240,13 +240,13 @@ class Planner {
     [[nodiscard]] uint32_t
     findLayerSize(const PlacedLight& light, const PlannedMover& mover) const {
         const uint32_t most = mView.shadows.mapSize / 4;
-        if (!light.isFar())
+        if (!light.isDirectional())
             return most;
         const double wanted = kLayerTexelsPerPixel *
                               findShadowWidth(picture(), mover.caster.sphere, -light.direction);
         if (!(wanted < double(most))) // NaN too
             return most;
-        return std::clamp(std::bit_ceil(uint32_t(std::ceil(wanted))), kLeastLayerSize, most);
+        return std::clamp(std::bit_ceil(uint32_t(std::ceil(wanted))), kMinLayerSize, most);
     }
 
     void addLayers(const PlacedLight& light) {

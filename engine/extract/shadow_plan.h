@@ -45,12 +45,12 @@ struct ShadowPlan {
     std::vector<shader::ShadowLight> lights; ///< one per light
     std::vector<shader::ShadowMover> movers;
     std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
-    std::vector<shader::ShadowRun> runs;         ///< by light that is far away, then by mover
+    std::vector<shader::CasterSpan> runs;        ///< by light that is far away, then by mover
     uint32_t instantCount = 1;
     std::vector<uint32_t> tiles; ///< ShadowConstants::tiles
     uint32_t tilesAcross = 0;
     uint64_t texelCount = 0;
-    math::dvec3 eye{0.0}; ///< origin of the frame's eye space, in the world
+    math::dvec3 eye{0.0}; ///< origin of the frame's camera-relative space, in the world
 };
 
 /// \param view the frame's; with an instant, shadows are those of that instant alone

@@ -72,12 +72,12 @@ std::array<math::vec4, 3> makeRows(const dmat4& map) {
     return rows;
 }
 
-shader::ShadowRun
+shader::CasterSpan
 makeRun(const LinearMap& line, double middle, const MoverLayer& layer, const dvec3& eye) {
     const dmat4 toEye = glm::translate(dmat4(1.0), eye);
     const std::array<math::vec4, 3> first = makeRows(line.first * toEye);
     const std::array<math::vec4, 3> step = makeRows(line.step * toEye);
-    shader::ShadowRun run{};
+    shader::CasterSpan run{};
     std::copy(first.begin(), first.end(), run.first);
     std::copy(step.begin(), step.end(), run.step);
     // A plane's depth over x and y: what its normal is perpendicular to is perpendicular to it.
@@ -162,7 +162,7 @@ uint32_t findRunInstants(
                 caster, path, layers, toLight, begin, std::min<size_t>(begin + length, count)
             );
             isExact = findError(run.line, run.maps, path.swept, layers[run.layer].sizePx) <=
-                      kMostRunError; // not with NaN
+                      kMaxRunError; // not with NaN
         }
         if (isExact)
             return length;
@@ -170,7 +170,7 @@ uint32_t findRunInstants(
     return 1;
 }
 
-std::vector<shader::ShadowRun> makeRuns(
+std::vector<shader::CasterSpan> makeRuns(
     const ShadowCaster& caster,
     const CasterPath& path,
     std::span<const MoverLayer> layers,
@@ -179,7 +179,7 @@ std::vector<shader::ShadowRun> makeRuns(
     const dvec3& eye
 ) {
     const dmat4 raster = mapToLayer(caster, dmat4(1.0), toLight, layers.front());
-    std::vector<shader::ShadowRun> runs{makeRun({raster}, 0.0, layers.front(), eye)};
+    std::vector<shader::CasterSpan> runs{makeRun({raster}, 0.0, layers.front(), eye)};
     if (runInstants == 0)
         return runs;
     const size_t count = path.instants.size();

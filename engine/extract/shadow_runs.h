@@ -15,7 +15,7 @@
 namespace shutter::extract {
 
 /// How far a run may take a point of its mover from where the instant has it, texels.
-inline constexpr double kMostRunError = 0.25;
+inline constexpr double kMaxRunError = 0.25;
 
 /// A layer of a mover for one light.
 struct MoverLayer {
@@ -36,7 +36,7 @@ struct MoverLayer {
     const MoverLayer& layer
 );
 
-/// The most instants per run for which no run errs by more than kMostRunError and each layer is
+/// The most instants per run for which no run errs by more than kMaxRunError and each layer is
 /// still used. 0: the mover is static.
 /// \param layers the raster instant's, then those of equal parts of the exposure
 [[nodiscard]] uint32_t findRunInstants(
@@ -48,7 +48,7 @@ struct MoverLayer {
 
 /// \param runInstants 1, 2 or shader::kMaxRunInstants; 0: the raster instant's run alone
 /// \param eye origin of the space that the runs take points of
-[[nodiscard]] std::vector<shader::ShadowRun> makeRuns(
+[[nodiscard]] std::vector<shader::CasterSpan> makeRuns(
     const ShadowCaster& caster,
     const CasterPath& path,
     std::span<const MoverLayer> layers,

@@ -17,7 +17,7 @@ using math::dvec3;
 using math::dvec4;
 
 /// Least share of the farthest distance that the first cascade begins at.
-constexpr double kLeastNearShare = 1.0 / 256.0;
+constexpr double kMinNearShare = 1.0 / 256.0;
 
 /// Steps of a cascade's place, in its width.
 constexpr double kStep = 1.0 / 8.0;
@@ -132,7 +132,7 @@ std::vector<LightView> fitCascades(
     const double sceneHalf = std::max({sceneSize.x, sceneSize.y, 1.0e-6}) / 2.0;
     const double whole = roundUp(sceneHalf / usableShare(sizePx), 8.0);
     const double last = roundUp(farthest, 2.0);
-    const double first = std::min(std::max(camera.near, last * kLeastNearShare), last / 2.0);
+    const double first = std::min(std::max(camera.near, last * kMinNearShare), last / 2.0);
     std::vector<LightView> views;
     double from = first;
     for (uint32_t i = 1; i <= kMaxCascades; ++i) {

@@ -18,9 +18,9 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 constexpr double kSweptMarginPx = 2.0;
 /// Above this count, movers are not tested one by one.
-constexpr size_t kMostSweptMovers = 64;
+constexpr size_t kMaxSweptMovers = 64;
 /// Nearest depth at which a box has corners in the picture, metres.
-constexpr double kLeastBoxDepth = 1.0e-4;
+constexpr double kMinBoxDepth = 1.0e-4;
 
 /// How far a vertex of a shape goes at most from shutter open to close in its own space, to within
 /// a factor of two, metres.
@@ -93,14 +93,14 @@ SweptBox SweptScene::sweep(uint32_t row) const {
     const DeformedEntity* const shape = findDeformed(frame, row);
     const math::Bounds bounds = findExposureBounds(frame, layout, row);
     const ecs::Entity entity = frame.entityHandles[row];
-    const bool isStill = !motion.mayObjectMove(entity);
+    const bool isStatic = !motion.mayObjectMove(entity);
     SweptBox box;
     std::array<dvec2, 8> before{};
     std::array<double, 8> ways{};
     bool isEverywhere = false;
     for (size_t i = 0; i < kTimes; ++i) {
-        const dmat4 picture = mPictures[i] * (isStill ? frame.worldFromObject[row]
-                                                      : motion.worldFromObject(entity, mTimes[i]));
+        const dmat4 picture = mPictures[i] * (isStatic ? frame.worldFromObject[row]
+                                                       : motion.worldFromObject(entity, mTimes[i]));
         for (size_t corner = 0; corner < 8; ++corner) {
             const dvec4 at = picture * dvec4(
                                            corner & 1 ? bounds.max.x : bounds.min.x,
@@ -112,7 +112,7 @@ SweptBox SweptScene::sweep(uint32_t row) const {
             box.nearest = std::min(box.nearest, at.z);
             box.farthest = std::max(box.farthest, at.z);
             // Written so that NaN is everywhere, too.
-            if (!(q > kLeastBoxDepth)) {
+            if (!(q > kMinBoxDepth)) {
                 isEverywhere = true;
                 continue;
             }
@@ -126,7 +126,7 @@ SweptBox SweptScene::sweep(uint32_t row) const {
     }
     box.wayPx = *std::max_element(ways.begin(), ways.end());
     if (shape && shape->changes) {
-        const double depth = isPerspective ? std::max(box.nearest, kLeastBoxDepth) : 1.0;
+        const double depth = isPerspective ? std::max(box.nearest, kMinBoxDepth) : 1.0;
         box.wayPx += measureDeformation(*shape) * measureFocalLength(mPictures[0]) / depth;
     }
     if (isEverywhere)
@@ -160,7 +160,7 @@ bool SweptScene::addBox(uint32_t row, std::vector<SweptBox>& boxes) const {
     const SweptBox box = sweep(row);
     if (isInPicture(box))
         boxes.push_back(box);
-    return boxes.size() <= kMostSweptMovers;
+    return boxes.size() <= kMaxSweptMovers;
 }
 
 } // namespace shutter::extract

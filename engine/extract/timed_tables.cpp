@@ -87,9 +87,9 @@ class Builder {
                std::tan(mMotion.cameraYFov(mRequest.exposure.rasterTime) / 2.0);
     }
 
-    /// Eye space seen through the raster instant's lens: what that lens has at the picture's border
-    /// is at the border at s.
-    dmat4 eyeFromViewAt(double s) const {
+    /// Camera-relative space seen through the raster instant's lens: what that lens has at the
+    /// picture's border is at the border at s.
+    dmat4 relWorldFromViewAt(double s) const {
         dmat4 eye = toEye(viewAt(s));
         if (!mMotion.mayCameraZoom())
             return eye;
@@ -126,8 +126,8 @@ class Builder {
         mTolerance.near = perspective ? mCamera.near : 0.0;
         (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
 
-        const auto eyeFromView = [&](double s) { return eyeFromViewAt(s); };
-        auto keys = computeCameraKeys(eyeFromView, half, mTolerance);
+        const auto relWorldFromView = [&](double s) { return relWorldFromViewAt(s); };
+        auto keys = computeCameraKeys(relWorldFromView, half, mTolerance);
         if (keys)
             mTables.camera = std::move(*keys);
         else // a camera without a finite pose for a while uses that of the raster instant
@@ -172,7 +172,7 @@ class Builder {
 
     MotionKeys holdStill(size_t row, const Bounds& bounds) const {
         MotionKeys still;
-        const auto& matrix = mFrame.entities[row].eyeFromObject;
+        const auto& matrix = mFrame.entities[row].relWorldFromObject;
         still.keys = {{{matrix[0], matrix[1], matrix[2]}}};
         still.swept = math::transformBounds(expandKey(still.keys[0]), bounds);
         return still;

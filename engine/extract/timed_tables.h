@@ -33,14 +33,14 @@ struct TimedDeformation {
 struct TimedTables {
     std::vector<MotionKeys> rows;         ///< parallel to ExtractedFrame::entities
     std::vector<TimedDeformation> shapes; ///< of the rows whose mesh is deformed, in their order
-    MotionKeys camera;     ///< eyeFromView, widened by the lens as TimedConstants::cameraKeys
+    MotionKeys camera;     ///< relWorldFromView, widened by the lens as TimedConstants::cameraKeys
     math::vec4 view{0.0f}; ///< TimedConstants::view
     std::vector<shader::LensKey> lens;    ///< TimedConstants::lensKeys; empty: a pinhole
     math::vec4 aperture{0.0f};            ///< TimedConstants::aperture
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be hit, in spatial order
-    std::vector<Box> boxes;       ///< of `moving`: eye space, over the whole exposure, finite
+    std::vector<Box> boxes; ///< of `moving`: camera-relative space, over the whole exposure, finite
 };
 
 /// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster

@@ -73,7 +73,7 @@ core::Status MotionCheck::check(const ecs::Registry& registry) {
     return checkChanged<scene::VertexWaves>(registry, mWaves, scene::validateWaves);
 }
 
-WorldChanges WorldWatch::look(const ecs::Registry& registry) {
+WorldChanges WorldWatch::update(const ecs::Registry& registry) {
     WorldChanges changes;
     forEachType(registry, mPlacing, [&](const ecs::Changes& one) {
         changes.structure = changes.structure || one.all;

@@ -30,7 +30,7 @@ struct WorldChanges {
 class WorldWatch {
   public:
     /// The first call for a registry returns `structure`, unless the registry is empty.
-    [[nodiscard]] WorldChanges look(const ecs::Registry& registry);
+    [[nodiscard]] WorldChanges update(const ecs::Registry& registry);
 
   private:
     /// A cursor of each component type of a list.

@@ -72,9 +72,9 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
     const auto exposure = object.find("exposure");
     const auto angle = object.find("shutterAngle");
     const auto read = [](const json::JsonNode& field, std::string_view row) {
-        scene::CameraShutter told;
-        json::readRow(field, core::getRow(scene::listShutterRows(), row), told);
-        return told;
+        scene::CameraShutter given;
+        json::readRow(field, core::getRow(scene::listShutterRows(), row), given);
+        return given;
     };
     if (exposure)
         shutter.exposureSeconds = read(*exposure, "exposureSeconds").exposureSeconds;
@@ -85,7 +85,7 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
     if (exposure && angle)
         node.fail("exposure and shutterAngle exclude each other");
     if (!exposure && !angle && !shutter.phase)
-        node.fail("tells none of exposure, shutterAngle, phase");
+        node.fail("has none of exposure, shutterAngle, phase");
     return shutter;
 }
 
@@ -283,7 +283,7 @@ core::Status validateFlythrough(const Flythrough& flythrough) {
         return core::makeError("flythrough: fps and up must be finite");
     for (size_t i = 0; i < flythrough.keys.size(); ++i)
         if (!isFinite(flythrough.keys[i]))
-            return core::makeError("flythrough: keys[{}] holds what is not finite", i);
+            return core::makeError("flythrough: keys[{}] holds a value that is not finite", i);
     // The reader has the only set of rules.
     const auto read = parseFlythrough(json::formatJson(describe(flythrough)), "flythrough");
     return read ? core::Status() : core::Status(read.error());
@@ -336,24 +336,24 @@ std::optional<scene::FocusMotion> makeFocus(const Flythrough& flythrough) {
 }
 
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter) {
-    const FlythroughShutter* told = nullptr;
+    const FlythroughShutter* given = nullptr;
     for (const FlythroughKey& key : flythrough.keys) {
-        if (told && key.seconds > seconds)
+        if (given && key.seconds > seconds)
             break;
         if (key.shutter)
-            told = &*key.shutter;
+            given = &*key.shutter;
     }
-    if (!told)
+    if (!given)
         return;
-    if (told->exposureSeconds) {
+    if (given->exposureSeconds) {
         shutter.mode = scene::ShutterMode::Physical;
-        shutter.exposureSeconds = *told->exposureSeconds;
+        shutter.exposureSeconds = *given->exposureSeconds;
     }
-    if (told->angleDegrees) {
+    if (given->angleDegrees) {
         shutter.mode = scene::ShutterMode::Angle;
-        shutter.angleDegrees = *told->angleDegrees;
+        shutter.angleDegrees = *given->angleDegrees;
     }
-    shutter.phase = told->phase.value_or(shutter.phase);
+    shutter.phase = given->phase.value_or(shutter.phase);
 }
 
 ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythrough) {

@@ -119,7 +119,7 @@ void loadEnvironment(GltfContext& context, scene::Assets& assets) {
     settings.intensity = findNumber(light, "intensity", path).value_or(settings.intensity);
     // As many texels round the horizon as four sides have.
     const uint32_t width =
-        std::clamp(4 * sides[0].width, environment::kLeastPictureWidth, environment::kMostWidth);
+        std::clamp(4 * sides[0].width, environment::kMinPictureWidth, environment::kMaxWidth);
     auto made = environment::makeEnvironment(environment::unwrapCube(sides, width), settings);
     if (!made)
         failGltf("{}: {}", path, made.error().message);

@@ -317,7 +317,7 @@ void Device::savePipelineCache() const {
 
 uint64_t
 Device::submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores) {
-    SHUTTER_CHECK(!mIsAdopted, "what is recorded for a host is submitted by the host");
+    SHUTTER_CHECK(!mIsAdopted, "work recorded for a host is submitted by the host");
     SHUTTER_CHECK(!batches.empty(), "nothing is submitted");
     const auto at = [](VkSemaphore semaphore, uint64_t value) {
         VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};

@@ -14,7 +14,7 @@ constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
 constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
 /// A property that is preferred or avoided.
-struct Wish {
+struct Preference {
     VkMemoryPropertyFlags property = 0;
     bool present = true;
 };
@@ -22,22 +22,28 @@ struct Wish {
 /// Required properties of a use, and preferred ones in order of importance.
 struct Needs {
     VkMemoryPropertyFlags required = 0;
-    std::array<Wish, 3> wishes;
+    std::array<Preference, 3> preferences;
 };
 
 Needs needsOf(MemoryUse use) {
     switch (use) {
     case MemoryUse::Device:
         // The window that the CPU sees may be small, and streams want it.
-        return {0, {Wish{kLocal, true}, Wish{kVisible, false}, Wish{}}};
+        return {0, {Preference{kLocal, true}, Preference{kVisible, false}, Preference{}}};
     case MemoryUse::Staging:
         // Cached memory makes transfers snoop the CPU's caches, and writes gain nothing.
-        return {kVisible | kCoherent, {Wish{kLocal, false}, Wish{kCached, false}, Wish{}}};
+        return {
+            kVisible | kCoherent,
+            {Preference{kLocal, false}, Preference{kCached, false}, Preference{}}};
     case MemoryUse::Stream:
-        return {kVisible | kCoherent, {Wish{kLocal, true}, Wish{kCached, false}, Wish{}}};
+        return {
+            kVisible | kCoherent,
+            {Preference{kLocal, true}, Preference{kCached, false}, Preference{}}};
     case MemoryUse::Readback:
         // The CPU reads uncached memory a hundred times slower; an invalidation costs little.
-        return {kVisible, {Wish{kCached, true}, Wish{kCoherent, true}, Wish{kLocal, false}}};
+        return {
+            kVisible,
+            {Preference{kCached, true}, Preference{kCoherent, true}, Preference{kLocal, false}}};
     }
     return {};
 }
@@ -62,8 +68,9 @@ std::vector<uint32_t> rankMemoryTypes(
         const VkMemoryHeap& heap = memory.memoryHeaps[memory.memoryTypes[i].heapIndex];
         const bool fillsWindow = use == MemoryUse::Stream && bytes > heap.size / 4;
         scores[i] = fillsWindow ? 0 : 1;
-        for (const Wish& wish : needs.wishes)
-            scores[i] = 2 * scores[i] + (((properties & wish.property) != 0) == wish.present);
+        for (const Preference& preference : needs.preferences)
+            scores[i] =
+                2 * scores[i] + (((properties & preference.property) != 0) == preference.present);
         types.push_back(i);
     }
     // Among equals the driver's order, which is by speed.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr VkDeviceSize kTableAlignment = 256;
 /// Groups of a dispatch: rows are limited by the guaranteed minimum of maxComputeWorkGroupCount.
-constexpr uint64_t kMostGroups = uint64_t{65535} * shader::kDeformRow;
+constexpr uint64_t kMaxGroups = uint64_t{65535} * shader::kDeformRow;
 
 gpu::ComputePipelineDesc
 describePipeline(const char* name, std::span<const uint32_t> spirv, uint32_t pushBytes) {
@@ -140,7 +140,7 @@ void DeformJobs::add(const shader::DeformJob& job, uint32_t instantCount) {
     if (groups == 0)
         return;
     SHUTTER_CHECK(
-        mBatch.groupCount + groups <= kMostGroups, "{} vertices are deformed", job.vertexCount
+        mBatch.groupCount + groups <= kMaxGroups, "{} vertices are deformed", job.vertexCount
     );
     mJobs.push_back(job);
     mJobs.back().firstGroup = mBatch.groupCount;

@@ -39,16 +39,16 @@ EntityTable::Written EntityTable::update(const extract::ExtractedFrame& frame) {
     written.rows += rows.size() - first;
     mRevision = changes.revision;
 
-    const std::span<const EntityMotion> still = frame.stillMotions;
+    const std::span<const EntityMotion> still = frame.staticMotions;
     const std::span<const EntityMotion> moving = frame.movingMotions;
     const bool cleared = fit(mMotions, "entity motions", still.size_bytes() + moving.size_bytes());
-    if (cleared || frame.stillRevision != mStillRevision) {
+    if (cleared || frame.staticRevision != mStillRevision) {
         mMotions.write(still);
         written.motions += still.size();
     }
     mMotions.write(moving, still.size_bytes());
     written.motions += moving.size();
-    mStillRevision = frame.stillRevision;
+    mStillRevision = frame.staticRevision;
     return written;
 }
 

@@ -11,7 +11,7 @@ namespace shutter::graph {
 namespace {
 
 /// Several plans' images wait for them: a frame with every method's intermediates has about thirty.
-constexpr uint64_t kMostIdleImages = 128;
+constexpr uint64_t kMaxIdleImages = 128;
 
 /// Frames for which unused objects are cached: a second or two, so that motion may pause.
 constexpr uint64_t kRoundsKept = 100;
@@ -87,7 +87,7 @@ void TransientPool::realizeImages(const Graph& graph, const Plan& plan) {
         mImageSlots[missing[i]->resource] = mImages.add(makeKey(*missing[i]), std::move(images[i]));
     }
     mImages.dropUnused(kRoundsKept);
-    mImages.dropIdle(kMostIdleImages, [](const ImageKey&) { return 1; });
+    mImages.dropIdle(kMaxIdleImages, [](const ImageKey&) { return 1; });
 }
 
 void TransientPool::realizeBuffers(const Graph& graph, const Plan& plan) {

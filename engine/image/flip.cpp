@@ -316,9 +316,9 @@ constexpr ToneCurve kCurve{};
 /// last.
 constexpr double kShown = 0.85;
 /// From the first exposure to the last: where half of a picture is black, no exposure shows it.
-constexpr double kMostStops = 20.0;
+constexpr double kMaxStops = 20.0;
 /// A black picture has no brightest light.
-constexpr double kLeastLuminance = 1.0e-6;
+constexpr double kMinLuminance = 1.0e-6;
 
 float applyCurve(float x) {
     const double value = double(x);
@@ -399,11 +399,11 @@ ExposureRange findHdrFlipExposures(const Image& truth) {
                               : 0.5 * (luminances[half - 1] + luminances[half]);
     const double shown = solveCurve();
     const auto stopsOf = [&](double luminance) {
-        return std::log2(shown / std::max(luminance, kLeastLuminance));
+        return std::log2(shown / std::max(luminance, kMinLuminance));
     };
     ExposureRange range;
     range.first = stopsOf(luminances.back());
-    range.last = std::min(stopsOf(median), range.first + kMostStops);
+    range.last = std::min(stopsOf(median), range.first + kMaxStops);
     constexpr double kSlack = 1.0e-9; // of logarithms
     range.count = std::max(2u, uint32_t(std::ceil(range.last - range.first - kSlack)));
     return range;

@@ -54,7 +54,7 @@ LayerBuilder::LayerBuilder(
     SHUTTER_CHECK(!pictures.empty(), "no instants");
     mTables.movers.assign(rowCount + 1, shader::kWorldMover);
     mTables.movers[rowCount] = shader::kSkyMover;
-    mTables.isStill = std::all_of(pictures.begin(), pictures.end(), [&](const dmat4& picture) {
+    mTables.isStatic = std::all_of(pictures.begin(), pictures.end(), [&](const dmat4& picture) {
         return picture == layerPicture;
     });
     const dmat4 worldFromLayer = glm::inverse(layerPicture);

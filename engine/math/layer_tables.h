@@ -25,7 +25,7 @@ struct LayerTables {
     /// shader::kNoRasterRow; empty for this frame's raster itself.
     std::vector<uint32_t> rasterRows;
     /// Static entities have the same place in the picture at every instant, as in the raster.
-    bool isStill = false;
+    bool isStatic = false;
     bool deforms = false; ///< a mover is shader::kDeformedMover
 };
 

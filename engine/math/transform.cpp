@@ -9,7 +9,7 @@ namespace shutter::math {
 
 namespace {
 
-constexpr int kMostSteps = 32;
+constexpr int kMaxSteps = 32;
 constexpr double kArrived = 1.0e-14; ///< of elements of an orthogonal matrix
 /// Sine of the shear that rounded files and products have: axes so square are left as they are.
 constexpr double kSquare = 1.0e-6;
@@ -37,7 +37,7 @@ std::optional<dmat3> findOrthogonal(const dmat3& matrix) {
     if (!(size > 0.0) || !isFinite(matrix))
         return std::nullopt;
     dmat3 x = matrix / size; // so that determinants neither overflow nor vanish
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const double determinant = std::abs(glm::determinant(x));
         if (!(determinant > 0.0))
             return std::nullopt;

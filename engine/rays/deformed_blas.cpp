@@ -31,34 +31,34 @@ graph::BufferHandle DeformedBlas::declare(
     using graph::Access;
     mAddresses.assign(frame.deformed.size(), 0);
     mWasRebuilt = false;
-    std::vector<gpu::BlasDesc> levels;
+    std::vector<gpu::BlasDesc> blases;
     std::vector<size_t> owners; // of ExtractedFrame::deformed
     size_t row = 0;
     for (size_t i = 0; i < frame.deformed.size(); ++i) {
-        gpu::BlasDesc level;
-        level.triangles = scene.describeTriangles(frame.deformed[i].mesh);
+        gpu::BlasDesc blas;
+        blas.triangles = scene.describeTriangles(frame.deformed[i].mesh);
         uint64_t triangleCount = 0;
-        for (gpu::TriangleGeometry& triangles : level.triangles) {
+        for (gpu::TriangleGeometry& triangles : blas.triangles) {
             triangles.vertices = gpu::joinAddress(shapes.rows[row++].vertices);
             triangleCount += triangles.triangleCount;
         }
         if (triangleCount == 0)
             continue;
         owners.push_back(i);
-        levels.push_back(std::move(level));
+        blases.push_back(std::move(blas));
     }
-    if (levels.empty())
+    if (blases.empty())
         return {};
 
-    if (!mLevels.prepareBlas(mDevice, std::move(levels), true))
+    if (!mBlases.prepareBlas(mDevice, std::move(blases), true))
         mBuilt.assign(owners.size(), {});
     std::vector<gpu::BuildAction> actions;
     for (size_t i = 0; i < owners.size(); ++i) {
         const extract::DeformedEntity& entity = frame.deformed[owners[i]];
         actions.push_back(choose(i, entity, frame.entityHandles[entity.row]));
-        mAddresses[owners[i]] = mLevels.address(i);
+        mAddresses[owners[i]] = mBlases.address(i);
     }
-    auto blasBuffer = graph.importBuffer("BLAS of deformed meshes", mLevels.buffer(), 0);
+    auto blasBuffer = graph.importBuffer("BLAS of deformed meshes", mBlases.buffer(), 0);
     if (std::all_of(actions.begin(), actions.end(), [](gpu::BuildAction action) {
             return action == gpu::BuildAction::Keep;
         }))
@@ -75,7 +75,7 @@ graph::BufferHandle DeformedBlas::declare(
             blasBuffer = builder.write(blasBuffer, Access::AccelerationBuild);
         },
         [this, actions](const Data&, graph::PassContext& context) {
-            mLevels.record(mDevice, context.commands, actions);
+            mBlases.record(mDevice, context.commands, actions);
         }
     );
     return blasBuffer;

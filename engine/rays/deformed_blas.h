@@ -69,8 +69,8 @@ class DeformedBlas {
     choose(size_t index, const extract::DeformedEntity& entity, ecs::Entity handle);
 
     gpu::Device& mDevice;
-    gpu::StructureSet mLevels;
-    std::vector<Built> mBuilt; ///< parallel to mLevels
+    gpu::StructureSet mBlases;
+    std::vector<Built> mBuilt; ///< parallel to mBlases
     std::vector<VkDeviceAddress> mAddresses;
     bool mWasRebuilt = false;
 };

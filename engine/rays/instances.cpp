@@ -23,35 +23,35 @@ gpu::Instance describeInstance(const gpu_scene::GpuScene& scene, const DeformedI
 }
 
 bool InstanceList::add(
-    uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
+    uint32_t row, uint32_t mesh, const math::vec4 (&relWorldFromObject)[3], uint32_t solidMask
 ) {
     if (!mScene.blas(mesh))
         return false;
     gpu::Instance instance = mScene.describeInstance(mesh);
     instance.customIndex = row;
     narrow(instance, solidMask);
-    return place(instance, mScene.layout().bounds[mesh], eyeFromObject);
+    return place(instance, mScene.layout().bounds[mesh], relWorldFromObject);
 }
 
 bool InstanceList::add(
-    const DeformedInstance& deformed, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
+    const DeformedInstance& deformed, const math::vec4 (&relWorldFromObject)[3], uint32_t solidMask
 ) {
     if (deformed.blas == 0)
         return false;
     gpu::Instance instance = describeInstance(mScene, deformed);
     instance.customIndex = deformed.row;
     narrow(instance, solidMask);
-    return place(instance, deformed.bounds, eyeFromObject);
+    return place(instance, deformed.bounds, relWorldFromObject);
 }
 
 bool InstanceList::place(
-    gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]
+    gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&relWorldFromObject)[3]
 ) {
     math::dmat4 matrix(1.0);
     for (int r = 0; r < 3; ++r)
         for (int column = 0; column < 4; ++column) {
-            instance.worldFromObject[r][column] = eyeFromObject[r][column];
-            matrix[column][r] = double(eyeFromObject[r][column]);
+            instance.worldFromObject[r][column] = relWorldFromObject[r][column];
+            matrix[column][r] = double(relWorldFromObject[r][column]);
         }
     if (!extract::isDrawable(matrix))
         return false;

@@ -30,16 +30,16 @@ class InstanceList {
 
     /// Adds an instance. Returns false for meshes that no ray can hit and for matrices that are
     /// singular or not finite.
-    /// \param eyeFromObject rows of a 3x4 matrix
+    /// \param relWorldFromObject rows of a 3x4 matrix
     /// \param solidMask bits of kSolidMask that its solid parts get
     bool
     add(uint32_t row,
         uint32_t mesh,
-        const math::vec4 (&eyeFromObject)[3],
+        const math::vec4 (&relWorldFromObject)[3],
         uint32_t solidMask = shader::kSolidMask);
     bool
     add(const DeformedInstance& deformed,
-        const math::vec4 (&eyeFromObject)[3],
+        const math::vec4 (&relWorldFromObject)[3],
         uint32_t solidMask = shader::kSolidMask);
     void add(const gpu::Instance& instance, const extract::Box& box);
 
@@ -61,8 +61,11 @@ class InstanceList {
     [[nodiscard]] std::vector<gpu::Instance> order() const;
 
   private:
-    bool
-    place(gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]);
+    bool place(
+        gpu::Instance instance,
+        const math::Bounds& bounds,
+        const math::vec4 (&relWorldFromObject)[3]
+    );
 
     const gpu_scene::GpuScene& mScene;
     std::vector<gpu::Instance> mInstances;

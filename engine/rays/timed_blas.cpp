@@ -133,7 +133,7 @@ TimedBlas::Work TimedBlas::plan(
     work.nextBox = mBoxes.address();
     mRows.clear();
     mEntries.clear();
-    mFirstLevel.clear();
+    mFirstBlas.clear();
     for (size_t i = 0; i < shapes.size(); ++i) {
         mEntries.push_back(
             {static_cast<uint32_t>(mRows.size()),
@@ -141,7 +141,7 @@ TimedBlas::Work TimedBlas::plan(
              0,
              0}
         );
-        mFirstLevel.push_back(work.levels.size());
+        mFirstBlas.push_back(work.levels.size());
         const size_t firstDeformed = work.deforms.size();
         planOne(shapes[i], i, scene, work);
         for (size_t deform = firstDeformed; deform < work.deforms.size(); ++deform) {
@@ -151,7 +151,7 @@ TimedBlas::Work TimedBlas::plan(
             mRows.back().vertices = work.deforms[deform].job.output_;
         }
     }
-    mFirstLevel.push_back(work.levels.size());
+    mFirstBlas.push_back(work.levels.size());
     return work;
 }
 
@@ -160,14 +160,14 @@ void TimedBlas::linkScenes(
 ) {
     std::vector<gpu::Instance> instances;
     for (size_t i = 0; i < shapes.size(); ++i)
-        for (size_t level = mFirstLevel[i]; level < mFirstLevel[i + 1]; ++level)
+        for (size_t level = mFirstBlas[i]; level < mFirstBlas[i + 1]; ++level)
             instances.push_back(describeInstance(
                 scene,
                 DeformedInstance{
                     shapes[i].row,
                     shapes[i].mesh,
                     shapes[i].mirrored,
-                    mLevels.address(level),
+                    mBlases.address(level),
                     shapes[i].bounds}
             ));
     mScenes.prepareTlas(mDevice, instances);
@@ -183,15 +183,15 @@ void TimedBlas::linkScenes(
         addresses.push_back(gpu::splitAddress(mScenes.address(level)));
     mAddresses.write(std::span<const math::uvec2>(addresses));
     for (size_t i = 0; i < shapes.size(); ++i) {
-        const size_t first = mFirstLevel[i];
-        if (first == mFirstLevel[i + 1])
+        const size_t first = mFirstBlas[i];
+        if (first == mFirstBlas[i + 1])
             continue;
         Entry& entry = mEntries[i];
         entry.scene = mScenes.address(first);
         if (shapes[i].changes())
             entry.scene = mAddresses.address() + first * sizeof(math::uvec2);
         else
-            entry.level = mLevels.address(first);
+            entry.level = mBlases.address(first);
     }
 }
 
@@ -207,7 +207,7 @@ void TimedBlas::update(
         return;
     }
     Work work = plan(shapes, scene);
-    (void)mLevels.prepareBlas(mDevice, std::move(work.levels));
+    (void)mBlases.prepareBlas(mDevice, std::move(work.levels));
     linkScenes(shapes, scene);
     gpu_scene::DeformJobs jobs;
     for (const Work::Deform& deform : work.deforms)
@@ -220,7 +220,7 @@ void TimedBlas::update(
         for (const Work::Bound& bound : work.bounds)
             mDeformer.boundTriangles(commands, bound.job, bound.intervalCount);
         gpu::fullBarrier(commands);
-        mLevels.record(mDevice, commands);
+        mBlases.record(mDevice, commands);
         gpu::fullBarrier(commands);
         mScenes.record(mDevice, commands);
         gpu::fullBarrier(commands);

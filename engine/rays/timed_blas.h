@@ -57,12 +57,12 @@ class TimedBlas {
     std::vector<extract::TimedDeformation> mShapes; ///< of the last call
     std::vector<shader::Geometry> mRows;
     std::vector<Entry> mEntries;
-    std::vector<size_t> mFirstLevel; ///< one per shape, and one past the last: into mLevels
+    std::vector<size_t> mFirstBlas; ///< one per shape, and one past the last: into mBlases
     gpu::Buffer mPoses;
     gpu::Buffer mVertices;
     gpu::Buffer mBoxes;
     gpu::Buffer mAddresses; ///< uvec2[]: scenes of the shapes that change
-    gpu::StructureSet mLevels;
+    gpu::StructureSet mBlases;
     gpu::StructureSet mScenes; ///< one per BLAS
 };
 

@@ -24,7 +24,7 @@ template <class Use> void forEachStill(const extract::ExtractedFrame& frame, Use
 bool addStill(const extract::ExtractedFrame& frame, uint32_t row, InstanceList& instances) {
     const shader::EntityRow& entry = frame.entities[row];
     return instances.add(
-        row, frame.entityMeshes[row], entry.eyeFromObject, extract::solidMaskOf(entry)
+        row, frame.entityMeshes[row], entry.relWorldFromObject, extract::solidMaskOf(entry)
     );
 }
 
@@ -69,17 +69,17 @@ TlasHandles FrameTlas::declare(
 void FrameTlas::listMoving(const extract::ExtractedFrame& frame, InstanceList& instances) const {
     size_t nextDeformed = 0;
     for (const uint32_t row : frame.movingRows) {
-        const auto& eyeFromObject = frame.entities[row].eyeFromObject;
+        const auto& relWorldFromObject = frame.entities[row].relWorldFromObject;
         const uint32_t solidMask = extract::solidMaskOf(frame.entities[row]);
         if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
-            instances.add(row, frame.entityMeshes[row], eyeFromObject, solidMask);
+            instances.add(row, frame.entityMeshes[row], relWorldFromObject, solidMask);
             continue;
         }
         const extract::DeformedEntity& deformed = frame.deformed[nextDeformed];
         const VkDeviceAddress level = mDeformedBlas.address(nextDeformed++);
         instances.add(
             DeformedInstance{row, deformed.mesh, deformed.mirrored, level, deformed.bounds},
-            eyeFromObject,
+            relWorldFromObject,
             solidMask
         );
     }
@@ -96,23 +96,23 @@ void FrameTlas::orderStill(const extract::ExtractedFrame& frame, const gpu_scene
     for (const uint32_t index : instances.computeOrder())
         mStillOrder.push_back(listed[index]);
     mStillOrder.insert(mStillOrder.end(), leftOut.begin(), leftOut.end());
-    mStillSet = frame.stillSet;
+    mStillSet = frame.staticSet;
 }
 
 bool FrameTlas::updateStill(
     const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene
 ) {
     // While the camera moves, the masks of static entities depend on the other entities.
-    if (mStillRevision == frame.stillRevision && frame.stillMotions.empty())
+    if (mStillRevision == frame.staticRevision && frame.staticMotions.empty())
         return false;
-    if (mStillSet != frame.stillSet)
+    if (mStillSet != frame.staticSet)
         orderStill(frame, scene);
     InstanceList instances(scene);
     for (const uint32_t row : mStillOrder)
         (void)addStill(frame, row, instances);
     mStill.level.prepare(mDevice, instances.instances());
     mStill.listed.clear(); // not as update() lists
-    mStillRevision = frame.stillRevision;
+    mStillRevision = frame.staticRevision;
     return true;
 }
 

@@ -12,14 +12,14 @@
 
 namespace shutter::render {
 
-/// Runs in separate frames (FrameRequest::isLook), one at a time.
+/// Runs in separate frames (FrameRequest::measuresMotion), one at a time.
 class LongestMotion : public PostEffect {
   public:
     explicit LongestMotion(gpu::Device& device);
 
     [[nodiscard]] std::string name() const override { return "longest motion"; }
 
-    [[nodiscard]] core::Decision ask(const ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const ViewFacts&) const override {
         return {true, "it is measured for the picture to come"};
     }
 

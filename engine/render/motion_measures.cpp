@@ -65,17 +65,17 @@ bool tightenCap(
 } // namespace
 
 core::Result<std::vector<float>>
-Renderer::lookAtMotion(const scene::World& world, const extract::ViewRequest& view) {
-    FrameRequest look;
-    look.view = view;
-    look.view.instant.reset();
-    look.view.shadows.mode = extract::ShadowMode::None; // only motion counts
-    look.isLook = true;
-    look.wantColor = false;
+Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view) {
+    FrameRequest request;
+    request.view = view;
+    request.view.instant.reset();
+    request.view.shadows.mode = extract::ShadowMode::None; // only motion counts
+    request.measuresMotion = true;
+    request.wantColor = false;
     if (!mLongestMotion)
         mLongestMotion.emplace(mDevice);
     PostEffect* const effect = &*mLongestMotion;
-    if (const auto seen = renderFrame(world, look, std::span(&effect, 1)); !seen)
+    if (const auto seen = renderFrame(world, request, std::span(&effect, 1)); !seen)
         return seen.error();
     return mLongestMotion->take();
 }
@@ -96,7 +96,7 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
         extract::ViewRequest part = view;
         const double length = 1.0 / parts.count;
         part.part = {i * length, (i + 0.5) * length, (i + 1) * length};
-        const auto longest = lookAtMotion(world, part);
+        const auto longest = drawMotion(world, part);
         if (!longest)
             return longest.error();
         // The fastest part determines the spacing of the instants, which is uniform.
@@ -115,22 +115,22 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
 core::Result<scene::MotionCap>
 Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
     // A rotating mover's chord is not proportional to its angle: further iterations find the rest.
-    constexpr int kLooks = 4;
+    constexpr int kMaxIterations = 4;
     const double percent = view.exposure.shutter.maxBlurPercent;
     scene::MotionCap cap;
     if (!std::isfinite(percent) || !(view.exposure.open < view.exposure.close))
         return cap;
-    extract::ViewRequest look = view;
+    extract::ViewRequest request = view;
     const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
     std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
-    for (int i = 0; i < kLooks; ++i) {
-        look.exposure.cap = cap;
-        auto frame = extract::extractFrame(world, mScene.layout(), look);
+    for (int i = 0; i < kMaxIterations; ++i) {
+        request.exposure.cap = cap;
+        auto frame = extract::extractFrame(world, mScene.layout(), request);
         if (!frame)
             return frame.error();
         if (!uncapped)
-            uncapped.emplace(world, view.camera, look.exposure);
-        const auto longest = lookAtMotion(world, look);
+            uncapped.emplace(world, view.camera, request.exposure);
+        const auto longest = drawMotion(world, request);
         if (!longest)
             return longest.error();
         if (!tightenCap(cap, frame.value(), longest.value(), *uncapped, maxPx))

@@ -103,7 +103,7 @@ struct ExtractContext {
     /// Changes whenever shadow maps of lights do. Shadows of movers with separate layers are not in
     /// it: ShadowConstants::tiles bounds them.
     uint64_t shadowRevision = 0;
-    /// Particles to draw over the effect's picture (PostEffect::askParticles); null: none.
+    /// Particles to draw over the effect's picture (PostEffect::decideParticleDraw); null: none.
     const extract::ParticleTables* particles = nullptr;
 };
 
@@ -164,11 +164,11 @@ class PostEffect {
     [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Other; }
 
     /// Pure: depends on the facts and the effect's settings only.
-    [[nodiscard]] virtual core::Decision ask(const ViewFacts& facts) const = 0;
+    [[nodiscard]] virtual core::Decision decide(const ViewFacts& facts) const = 0;
 
     /// Returns whether this effect traces rays against the TLAS of the raster instant; only used
     /// when it runs. Must have no side effects. Default: skipped without a reason.
-    [[nodiscard]] virtual core::Decision askRays(const ViewFacts&) const { return {}; }
+    [[nodiscard]] virtual core::Decision decideRays(const ViewFacts&) const { return {}; }
 
     /// The same for rays at any time of the exposure.
     [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
@@ -192,16 +192,16 @@ class PostEffect {
 
     /// Whether particles are drawn over its picture, with their motion over the exposure, and not
     /// into the raster; also used if it does not run.
-    [[nodiscard]] virtual core::Decision askParticles(const ViewFacts&) const { return {}; }
+    [[nodiscard]] virtual core::Decision decideParticleDraw(const ViewFacts&) const { return {}; }
 
-    /// Reads the data for the effect's passes from the world; only called if ask() decided to run,
-    /// for all effects of the frame in order, before any declares passes.
+    /// Reads the data for the effect's passes from the world; only called if decide() decided to
+    /// run, for all effects of the frame in order, before any declares passes.
     virtual void extract(ExtractContext&) {}
 
     /// Declares passes; called after extract().
     virtual void declare(PostContext& context) = 0;
 
-    /// Called for each frame for which ask() was called, in order, once the GPU has finished it.
+    /// Called for each frame for which decide() was called, in order, once the GPU has finished it.
     virtual void finish(FinishedFrame&) {}
 };
 

@@ -139,7 +139,7 @@ core::Result<extract::ParticleTables> Renderer::extractParticles(
 ) const {
     // Frames that measure motion draw no particles, and effects store no history of pictures with
     // particles.
-    if (request.isLook || (running.particles.run && !request.wantPicture))
+    if (request.measuresMotion || (running.particles.run && !request.wantPicture))
         return extract::ParticleTables{};
     return extract::extractParticles(
         context.world,
@@ -293,7 +293,7 @@ core::Status Renderer::submitFrame(
     pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
-    if (!effects.empty() && !request.isLook)
+    if (!effects.empty() && !request.measuresMotion)
         releaseIdle(frame, running);
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();

@@ -50,7 +50,7 @@ struct FrameRequest {
     /// False: the next frame looks up nothing in this one. Effects preserve their earlier history.
     bool isFollowed = true;
     /// A measurement, not a frame of the picture: idle resources are not freed.
-    bool isLook = false;
+    bool measuresMotion = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
     bool wantTrace = false; ///< copy the outputs of each pass to FrameResult::trace
     /// False: effects may skip their device counters; FrameStatistics::counters may lack them.
@@ -240,7 +240,7 @@ class Renderer {
     /// Draws the view's motion in a separate frame. \return pixels from open to close, one number
     /// per row, then the sky's
     core::Result<std::vector<float>>
-    lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
+    drawMotion(const scene::World& world, const extract::ViewRequest& view);
     /// \param frame the context's, which gets its ExtractedFrame::layerRows
     RunningEffects askEffects(
         const ExtractContext& context,

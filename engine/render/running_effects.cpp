@@ -33,15 +33,15 @@ Renderer::RunningEffects Renderer::askEffects(
         running.lastRaster = {false, "no effect that runs looks anything up in it"};
     running.layer = {false, "no effect that runs draws one"};
     for (PostEffect* effect : effects) {
-        core::Decision decision = effect->ask(facts);
-        const core::Decision rays = effect->askRays(facts);
+        core::Decision decision = effect->decide(facts);
+        const core::Decision rays = effect->decideRays(facts);
         const core::Decision timedRays = effect->askTimedRays(facts);
         if (decision.run && (rays.run || timedRays.run) && !facts.deviceHasRays)
             decision = {false, "it needs rays, which the device cannot trace"};
         if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
             decision = {false, "it needs ray queries, which the device lacks"};
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
-        const core::Decision particles = effect->askParticles(facts);
+        const core::Decision particles = effect->decideParticleDraw(facts);
         join(running.particles, effect->name(), particles);
         if (particles.run)
             running.particlesAt = running.effects.size() + (decision.run ? 1 : 0);

@@ -24,12 +24,12 @@ constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 /// Width of the image that maps are drawn into, unless one map is wider.
 constexpr uint32_t kImageWidth = 4096;
 /// Width of one that needs no more. Images are kept for other frames by their size, and maps and
-/// layers are of many: two widths, and heights that are powers of two from `kLeastImageHeight`,
+/// layers are of many: two widths, and heights that are powers of two from `kMinImageHeight`,
 /// leave few.
 constexpr uint32_t kSmallImageWidth = 1024;
-constexpr uint32_t kLeastImageHeight = 256;
+constexpr uint32_t kMinImageHeight = 256;
 /// Images that are kept for other frames.
-constexpr size_t kMostImages = 4;
+constexpr size_t kMaxImages = 4;
 
 gpu::GraphicsPipelineDesc describeCasters(const gpu_scene::GpuScene& scene, bool masked) {
     gpu::GraphicsPipelineDesc desc;
@@ -71,7 +71,8 @@ class TableWriter {
 // Each map has both rows; the light's kind selects the one that is read.
 shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye) {
     shader::ShadowMap row{};
-    row.clipFromEye = math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
+    row.clipFromRelWorld =
+        math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
     row.firstTexel = map.firstTexel;
     row.sizePx = map.sizePx;
     row.texelMetres = float(map.view.texelMetres);
@@ -165,7 +166,7 @@ class ShadowRecorder {
 };
 
 /// Layers that there is room for as soon as there is one.
-constexpr uint64_t kLeastLayers = 16;
+constexpr uint64_t kMinLayers = 16;
 
 /// Texels of the plan's maps, with spare room for layers: each time the buffer is recreated for a
 /// new mover, all maps are drawn again.
@@ -180,7 +181,7 @@ uint64_t countRoom(const extract::ShadowPlan& plan) {
     }
     if (layers == 0)
         return plan.texelCount;
-    return plan.texelCount - layers + std::bit_ceil(std::max(layers, kLeastLayers * largest));
+    return plan.texelCount - layers + std::bit_ceil(std::max(layers, kMinLayers * largest));
 }
 
 } // namespace
@@ -293,7 +294,7 @@ VkExtent2D ShadowMaps::placeDrawn() {
     while (size.height > width && width < most)
         size = placeInRows(width = std::min(2 * width, most));
     size.width = size.width > kSmallImageWidth ? std::max(size.width, width) : kSmallImageWidth;
-    const uint32_t rounded = std::bit_ceil(std::max(size.height, kLeastImageHeight));
+    const uint32_t rounded = std::bit_ceil(std::max(size.height, kMinImageHeight));
     size.height = std::max(size.height, std::min(rounded, most));
     return size;
 }
@@ -331,7 +332,7 @@ const gpu::Image* ShadowMaps::prepareImage(VkExtent2D size) {
     if (found != mImages.end()) {
         std::rotate(found, found + 1, mImages.end()); // used last
     } else {
-        if (mImages.size() == kMostImages)
+        if (mImages.size() == kMaxImages)
             mImages.erase(mImages.begin());
         mImages.emplace_back(mDevice, "shadow casters", desc);
     }

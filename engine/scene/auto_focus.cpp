@@ -14,10 +14,10 @@ namespace shutter::scene {
 
 namespace {
 
-constexpr double kMostHalfLife = 1.0e3;    // seconds
+constexpr double kMaxHalfLife = 1.0e3;     // seconds
 constexpr int64_t kBlockSteps = 120 * 600; // of a replay, and the longest that is caught up with
 constexpr size_t kKeptSteps = 120 * 2;     // of a simulated world, at least
-constexpr double kMostSteps = 9.0e15;      // that doubles count
+constexpr double kMaxSteps = 9.0e15;       // that doubles count
 constexpr double kStepSlack = 1.0e-6;      // of a step: sums of steps are not exact
 
 double secondsOf(int64_t step) {
@@ -27,7 +27,7 @@ double secondsOf(int64_t step) {
 /// The step at `seconds` or the first one after it.
 int64_t findStep(double seconds) {
     const double steps = std::ceil(seconds * kFocusStepsPerSecond - kStepSlack);
-    return int64_t(std::clamp(steps, -kMostSteps, kMostSteps));
+    return int64_t(std::clamp(steps, -kMaxSteps, kMaxSteps));
 }
 
 /// When the last cut in the span, which has one, happens.
@@ -152,10 +152,10 @@ void runTo(World& world, ecs::Entity camera, int64_t start, int64_t last, bool i
 } // namespace
 
 core::Status validateAutoFocus(const AutoFocus& focus) {
-    if (focus.halfLife >= 0.0 && focus.halfLife <= kMostHalfLife)
+    if (focus.halfLife >= 0.0 && focus.halfLife <= kMaxHalfLife)
         return {};
     return core::makeError(
-        "autofocus: halfLife is {}, it must lie in [0, {:g}] seconds", focus.halfLife, kMostHalfLife
+        "autofocus: halfLife is {}, it must lie in [0, {:g}] seconds", focus.halfLife, kMaxHalfLife
     );
 }
 

@@ -182,7 +182,7 @@ namespace {
 constexpr int kIntervals = 16;
 constexpr int kHalvings = 30;
 /// A camera that races changes enough in many intervals at once; the largest changes are followed.
-constexpr size_t kMostFollowed = 64;
+constexpr size_t kMaxFollowed = 64;
 
 struct Interval {
     double from = 0.0;
@@ -242,14 +242,14 @@ class Search {
             follow(halves, interval.from, middle, interval.first, pose);
             follow(halves, middle, interval.to, pose, interval.last);
         }
-        if (halves.size() > kMostFollowed) {
+        if (halves.size() > kMaxFollowed) {
             std::partial_sort(
                 halves.begin(),
-                halves.begin() + kMostFollowed,
+                halves.begin() + kMaxFollowed,
                 halves.end(),
                 [](const Interval& a, const Interval& b) { return a.change > b.change; }
             );
-            halves.resize(kMostFollowed);
+            halves.resize(kMaxFollowed);
         }
         return halves;
     }

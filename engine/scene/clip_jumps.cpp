@@ -43,7 +43,7 @@ class Finder {
             addRound(keys, 0.0, clip.duration, jumps);
             return jumps;
         }
-        if ((mSpan.until - mSpan.after) / clip.duration > ClipJumps::kMostRounds)
+        if ((mSpan.until - mSpan.after) / clip.duration > ClipJumps::kMaxRounds)
             return jumps;
         const double first = std::floor(mSpan.after / clip.duration);
         const double last = std::floor(mSpan.until / clip.duration);

@@ -28,7 +28,7 @@ struct Jump {
 class ClipJumps {
   public:
     /// Maximum number of loops of a clip within `span`; clips with more are ignored.
-    static constexpr double kMostRounds = 64.0;
+    static constexpr double kMaxRounds = 64.0;
 
     /// Collects the jumps of all entities that clips drive.
     /// \param span seconds; both ends included

@@ -122,7 +122,7 @@ void ExposureMotion::noteComings() {
     whole.whole.reset();
     whole.open = mFrame.open;
     whole.close = mFrame.close;
-    mLastComing = whole.at(invertLight(whole, 1.0 - kLeastLight));
+    mLastComing = whole.at(invertLight(whole, 1.0 - kMinLight));
 }
 
 bool ExposureMotion::isThere(ecs::Entity entity, double seconds) const {

@@ -43,7 +43,7 @@ class ExposureMotion {
     [[nodiscard]] bool hasComings() const { return mHasComings; }
 
     /// When this entity does in the exposure itself, seconds. What appears as the exposure ends
-    /// (kLeastLight) is there for all of it.
+    /// (kMinLight) is there for all of it.
     [[nodiscard]] std::vector<double> comingsOf(ecs::Entity entity) const;
 
     /// Times of the world that the frame's whole exposure shows, scales included.

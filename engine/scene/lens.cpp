@@ -16,9 +16,9 @@ namespace shutter::scene {
 namespace {
 
 /// Below it a lens is metres wide at usual fields of view.
-constexpr double kLeastFStop = 0.01;
-constexpr double kMostFStop = 1.0e9;
-constexpr uint32_t kLeastBlades = 3;
+constexpr double kMinFStop = 0.01;
+constexpr double kMaxFStop = 1.0e9;
+constexpr uint32_t kMinBlades = 3;
 
 double focusAt(const FocusMotion& motion, const KeyPlace& place) {
     const double from = *motion.keys[place.key].focusDistance;
@@ -39,7 +39,7 @@ double fStopAt(const FocusMotion& motion, const KeyPlace& place) {
         interpolateAtPlace<double>(motion.keys, motion.interpolation, place, [&](size_t key) {
             return std::log(*motion.keys[key].fStop / from);
         });
-    return change == 0.0 ? from : std::clamp(from * std::exp(change), kLeastFStop, kMostFStop);
+    return change == 0.0 ? from : std::clamp(from * std::exp(change), kMinFStop, kMaxFStop);
 }
 
 void applyKeys(const FocusMotion& motion, double seconds, CameraLens& lens) {
@@ -73,7 +73,7 @@ core::Status validateFocus(const FocusMotion& focus) {
             return core::makeError("focus: key {} has other fields than the first", i);
         CameraLens lens;
         lens.focusDistance = key.focusDistance.value_or(lens.focusDistance);
-        lens.fStop = key.fStop.value_or(kMostFStop);
+        lens.fStop = key.fStop.value_or(kMaxFStop);
         if (core::Status valid = validate(lens, fmt::format("focus: key {}: ", i)); !valid)
             return valid;
         if (lens.fStop == 0.0)
@@ -138,7 +138,7 @@ core::SettingRows<CameraLens> listLensRows() {
          &L::fStop,
          "",
          {.lowest = 0,
-          .highest = kMostFStop,
+          .highest = kMaxFStop,
           .isLogarithmic = true,
           .sliderLowest = 0.5,
           .sliderHighest = 64},
@@ -154,7 +154,7 @@ core::SettingRows<CameraLens> listLensRows() {
           .isLogarithmic = true,
           .sliderLowest = 0.1,
           .sliderHighest = 100},
-         "Distance of what is in focus, along the camera's axis.",
+         "Focus distance, along the camera's axis.",
          "Focus",
          "--focus"},
         {"sensorHeight",
@@ -204,7 +204,7 @@ core::SettingRows<LensOverride> listOverrideRows() {
          &L::fStop,
          "",
          {.lowest = 0,
-          .highest = kMostFStop,
+          .highest = kMaxFStop,
           .isLogarithmic = true,
           .sliderLowest = 0.5,
           .sliderHighest = 64},
@@ -219,7 +219,7 @@ core::SettingRows<LensOverride> listOverrideRows() {
           .isLogarithmic = true,
           .sliderLowest = 0.1,
           .sliderHighest = 100},
-         "Distance of what is in focus, along the camera's axis, in place of the camera's, at "
+         "Focus distance, along the camera's axis, in place of the camera's, at "
          "least 0.0001. 0 is the camera's own.",
          "Focus"},
         {"blurScale",
@@ -234,9 +234,9 @@ core::SettingRows<LensOverride> listOverrideRows() {
 
 core::Status validate(const LensOverride& lens, std::string_view prefix) {
     SHUTTER_TRY(core::validateRows(listOverrideRows(), lens, prefix));
-    if (lens.fStop != 0.0 && lens.fStop < kLeastFStop)
+    if (lens.fStop != 0.0 && lens.fStop < kMinFStop)
         return core::makeError(
-            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kLeastFStop
+            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kMinFStop
         );
     if (lens.focusDistance != 0.0 && lens.focusDistance < kNearestFocus)
         return core::makeError(
@@ -250,11 +250,11 @@ core::Status validate(const LensOverride& lens, std::string_view prefix) {
 
 core::Status validate(const CameraLens& lens, std::string_view prefix) {
     SHUTTER_TRY(core::validateRows(listLensRows(), lens, prefix));
-    if (lens.fStop != 0.0 && lens.fStop < kLeastFStop)
+    if (lens.fStop != 0.0 && lens.fStop < kMinFStop)
         return core::makeError(
-            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kLeastFStop
+            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kMinFStop
         );
-    if (lens.blades != 0 && lens.blades < kLeastBlades)
+    if (lens.blades != 0 && lens.blades < kMinBlades)
         return core::makeError("{}blades is {}, it must be 0 or 3 to 16", prefix, lens.blades);
     return {};
 }

@@ -152,8 +152,8 @@ dvec3 rollDirection(Dice& dice, const dvec3& axis, double coneDegrees) {
     const double azimuth = glm::two_pi<double>() * dice.roll();
     if (coneDegrees == 0.0)
         return axis;
-    const dvec3 beside = std::abs(axis.x) < 0.7 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
-    const dvec3 x = glm::normalize(glm::cross(axis, beside));
+    const dvec3 sideways = std::abs(axis.x) < 0.7 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
+    const dvec3 x = glm::normalize(glm::cross(axis, sideways));
     const dvec3 y = glm::cross(axis, x);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
     return axis * cosine + (x * std::cos(azimuth) + y * std::sin(azimuth)) * sine;

@@ -70,7 +70,7 @@ dquat sampleRotation(const PathMotion& path, const KeyPlace& place) {
 // Orientation of a path with targets, straight down and up included.
 
 /// Directions closer than this to `up`, sine of the angle, have no defined upright.
-constexpr double kLeastSine = 1.0e-6;
+constexpr double kMinSine = 1.0e-6;
 constexpr int kBisections = 60;
 
 dvec3 normalizeOrZero(const dvec3& v) {
@@ -84,18 +84,18 @@ dvec3 flatten(const dvec3& v, const dvec3& up) {
 }
 
 bool isUpright(const dvec3& direction, const dvec3& up) {
-    return glm::length(glm::cross(up, direction)) > kLeastSine * glm::length(direction);
+    return glm::length(glm::cross(up, direction)) > kMinSine * glm::length(direction);
 }
 
 /// The direction of a view and its heading over the ground; unit vectors, or 0: unknown.
-struct Look {
+struct ViewDirection {
     dvec3 direction{0.0};
     dvec3 heading{0.0}; ///< at right angles to `up`
 
     [[nodiscard]] bool isWhole() const { return direction != dvec3(0.0) && heading != dvec3(0.0); }
 
     /// Fills its unknown vectors from another.
-    void fill(const Look& other) {
+    void fill(const ViewDirection& other) {
         if (direction == dvec3(0.0))
             direction = other.direction;
         if (heading == dvec3(0.0))
@@ -104,9 +104,9 @@ struct Look {
 };
 
 /// Axes of a view; +Y as near to `up` as they can.
-dmat3 makeAxes(const Look& look, const dvec3& up) {
-    const dvec3 back = -look.direction;
-    const dvec3 right = glm::normalize(glm::cross(up, -look.heading));
+dmat3 makeAxes(const ViewDirection& view, const dvec3& up) {
+    const dvec3 back = -view.direction;
+    const dvec3 right = glm::normalize(glm::cross(up, -view.heading));
     return {right, glm::cross(back, right), back};
 }
 
@@ -140,21 +140,21 @@ class Span {
     }
 
     /// \param sign -1: how it comes to x, 1: how it leaves
-    [[nodiscard]] Look approach(double x, double sign) const {
+    [[nodiscard]] ViewDirection approach(double x, double sign) const {
         const std::array<dvec3, 4> terms = {
             at(x),
             sign * (mTerms[1] + x * (2.0 * mTerms[2] + 3.0 * x * mTerms[3])),
             mTerms[2] + 3.0 * x * mTerms[3],
             sign * mTerms[3]};
-        Look look;
+        ViewDirection view;
         for (const dvec3& term : terms) {
             const dvec3 flat = flatten(term, mUp);
-            look.fill(
+            view.fill(
                 {isAny(term) ? glm::normalize(term) : dvec3(0.0),
                  isAny(flat) && isUpright(term, mUp) ? glm::normalize(flat) : dvec3(0.0)}
             );
         }
-        return look;
+        return view;
     }
 
     /// Straight down or up there, and not at itself.
@@ -179,7 +179,7 @@ class Span {
 
   private:
     [[nodiscard]] bool isAny(const dvec3& term) const {
-        return glm::length(term) > kLeastSine * mSize;
+        return glm::length(term) > kMinSine * mSize;
     }
 
     /// The direction over the ground in which it goes most; 0: it stays on a vertical line.
@@ -228,9 +228,9 @@ class Span {
 };
 
 /// The view directions of one path in one shot.
-class Looks {
+class ViewDirections {
   public:
-    Looks(const PathMotion& path, const KeyShot& shot)
+    ViewDirections(const PathMotion& path, const KeyShot& shot)
         : mPath(path), mShot(shot), mUp(glm::normalize(path.up)) {}
 
     [[nodiscard]] const dvec3& up() const { return mUp; }
@@ -238,27 +238,27 @@ class Looks {
     [[nodiscard]] Span span(size_t key) const { return {mPath, mShot, key, mUp}; }
 
     /// On arrival at a key; a static path uses the direction before it.
-    [[nodiscard]] Look before(size_t key) const {
-        Look look;
-        for (size_t i = key; i > mShot.first && !look.isWhole(); --i)
-            look.fill(span(i - 1).approach(1.0, -1.0));
-        return look;
+    [[nodiscard]] ViewDirection before(size_t key) const {
+        ViewDirection view;
+        for (size_t i = key; i > mShot.first && !view.isWhole(); --i)
+            view.fill(span(i - 1).approach(1.0, -1.0));
+        return view;
     }
 
     /// As it leaves a key.
-    [[nodiscard]] Look after(size_t key) const {
-        Look look;
-        for (size_t i = key; i < mShot.last && !look.isWhole(); ++i)
-            look.fill(span(i).approach(0.0, 1.0));
-        return look;
+    [[nodiscard]] ViewDirection after(size_t key) const {
+        ViewDirection view;
+        for (size_t i = key; i < mShot.last && !view.isWhole(); ++i)
+            view.fill(span(i).approach(0.0, 1.0));
+        return view;
     }
 
     /// Roll by which a path that leaves its key otherwise than it came is as it came.
     [[nodiscard]] double turnAt(size_t key, const Span& next) const {
         if (key == mShot.first || !next.isVertical(0.0))
             return 0.0;
-        const Look came = before(key);
-        const Look leaves = next.approach(0.0, 1.0);
+        const ViewDirection came = before(key);
+        const ViewDirection leaves = next.approach(0.0, 1.0);
         if (!came.isWhole() || !leaves.isWhole())
             return 0.0;
         const dmat3 from = makeAxes(leaves, mUp);
@@ -279,9 +279,9 @@ double ease(double share) {
 
 /// Roll on the way from a key to the next.
 /// \param isOn `place` is on a crossing, or so near that it counts as before it
-double findRoll(const Looks& looks, const Span& span, const KeyPlace& place, bool isOn) {
+double findRoll(const ViewDirections& views, const Span& span, const KeyPlace& place, bool isOn) {
     double from = 0.0; // of the way
-    double radians = looks.turnAt(place.key, span);
+    double radians = views.turnAt(place.key, span);
     const auto at = [&](double x) { return radians * (1.0 - ease((x - from) / (1.0 - from))); };
     for (const double crossing : span.findCrossings()) {
         if (!(crossing < place.share) ||
@@ -295,26 +295,27 @@ double findRoll(const Looks& looks, const Span& span, const KeyPlace& place, boo
 }
 
 /// Completes a view whose `direction` does not determine its roll.
-Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direction) {
-    Look look{normalizeOrZero(direction), dvec3(0.0)};
+ViewDirection
+completeView(const ViewDirections& views, const KeyPlace& place, const dvec3& direction) {
+    ViewDirection view{normalizeOrZero(direction), dvec3(0.0)};
     if (place.share > 0.0)
-        look.fill(looks.span(place.key).approach(place.share, -1.0));
-    if (!look.isWhole())
-        look.fill(looks.before(place.key));
-    if (!look.isWhole())
-        look.fill(looks.after(place.key));
-    if (look.direction == dvec3(0.0))
-        return look;
-    if (isUpright(look.direction, looks.up()))
-        look.heading = flatten(look.direction, looks.up());
-    if (look.heading == dvec3(0.0)) {
+        view.fill(views.span(place.key).approach(place.share, -1.0));
+    if (!view.isWhole())
+        view.fill(views.before(place.key));
+    if (!view.isWhole())
+        view.fill(views.after(place.key));
+    if (view.direction == dvec3(0.0))
+        return view;
+    if (isUpright(view.direction, views.up()))
+        view.heading = flatten(view.direction, views.up());
+    if (view.heading == dvec3(0.0)) {
         // Up is the axis farthest from `up`: a downward view then has its heading ahead, and the
         // reverse.
         const dvec3 other =
-            std::abs(look.direction.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
-        look.heading = -flatten(other, looks.up()) * glm::dot(look.direction, looks.up());
+            std::abs(view.direction.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
+        view.heading = -flatten(other, views.up()) * glm::dot(view.direction, views.up());
     }
-    return look;
+    return view;
 }
 
 /// Rotation with -Z along `direction` and +Y towards the path's `up`.
@@ -328,17 +329,17 @@ Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direct
 /// \param place in the path
 /// \param direction from the camera to its target there, any length
 dquat lookAlongPath(const PathMotion& path, const KeyPlace& place, const dvec3& direction) {
-    const Looks looks(path, place.shot);
-    const dvec3& up = looks.up();
-    Look look{normalizeOrZero(direction), normalizeOrZero(direction)};
+    const ViewDirections views(path, place.shot);
+    const dvec3& up = views.up();
+    ViewDirection view{normalizeOrZero(direction), normalizeOrZero(direction)};
     const bool isVertical = !isUpright(direction, up);
     if (isVertical)
-        look = completeLook(looks, place, direction);
-    if (look.direction == dvec3(0.0))
+        view = completeView(views, place, direction);
+    if (view.direction == dvec3(0.0))
         return {1.0, 0.0, 0.0, 0.0};
-    dmat3 axes = makeAxes(look, up);
+    dmat3 axes = makeAxes(view, up);
     if (place.share > 0.0) {
-        const double radians = findRoll(looks, looks.span(place.key), place, isVertical);
+        const double radians = findRoll(views, views.span(place.key), place, isVertical);
         if (radians != 0.0)
             axes = roll(axes, radians);
     }
@@ -359,15 +360,15 @@ core::Status validateKey(const PathMotion& path, size_t i) {
     if (!isFinite(key.position))
         return core::makeError("path: the position of key {} is not finite", i);
     if (key.rotation && key.lookAt)
-        return core::makeError("path: key {} has a rotation and a place to look at", i);
+        return core::makeError("path: key {} has a rotation and a place to view at", i);
     if (key.rotation.has_value() != path.keys[0].rotation.has_value() ||
         key.lookAt.has_value() != path.keys[0].lookAt.has_value())
-        return core::makeError("path: key {} tells its direction in another way than key 0", i);
+        return core::makeError("path: key {} gives its direction in another way than key 0", i);
     // Written so that NaN fails.
     if (key.rotation && !(std::abs(glm::length(*key.rotation) - 1.0) < 1.0e-3))
         return core::makeError("path: the rotation of key {} is not of length 1", i);
     if (key.lookAt && !isFinite(*key.lookAt))
-        return core::makeError("path: the place that key {} looks at is not finite", i);
+        return core::makeError("path: the place that key {} views at is not finite", i);
     return {};
 }
 

@@ -179,9 +179,9 @@ ExposureInterval takePart(const ExposureInterval& exposure, double open, double 
 }
 
 int64_t numberFrame(const ExposureInterval& exposure) {
-    constexpr double kMost = 9.0e15; // whole numbers are exact below
+    constexpr double kMaxExact = 9.0e15; // whole numbers are exact below
     const double number = exposure.frame().raster / exposure.frameSeconds;
-    return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
+    return std::abs(number) < kMaxExact ? std::llround(number) : 0; // nor NaN
 }
 
 core::Status validateResponse(const ShutterResponse& response) {

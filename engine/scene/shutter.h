@@ -97,7 +97,7 @@ struct ExposureInterval {
 computeExposureBefore(const ExposureInterval& exposure, uint32_t frames);
 
 /// Share of a frame's light below which a part of the exposure is left out.
-inline constexpr double kLeastLight = 1.0 / 512.0;
+inline constexpr double kMinLight = 1.0 / 512.0;
 
 /// The part of the exposure from `open` to `close` seconds, as a separate exposure: its raster
 /// instant is the one nearest to the frame's, and its share of the light follows the shutter's

@@ -77,7 +77,7 @@ core::SettingRows<CameraShutter> listShutterRows() {
          &S::objectScale,
          "x",
          {.lowest = 0, .highest = 2},
-         "Scales the blur of what moves in the world.",
+         "Scales the blur of movers.",
          "Objects",
          "--object-blur"},
         {"maxBlurPercent",

@@ -44,7 +44,7 @@ constexpr LensRow kLensRows[] = {
 };
 
 /// Instants of the motion blur combined with a filter.
-constexpr uint32_t kInstantsBesideLens = 16;
+constexpr uint32_t kInstantsWithLensFilter = 16;
 
 game::MethodInfo describeLensContender(const LensRow& row) {
     const depth_of_field::Filter& filter = depth_of_field::getFilter(row.filter);
@@ -64,7 +64,7 @@ game::MethodInfo describeLensContender(const LensRow& row) {
     contender.family = game::MethodFamily::MotionBlur;
     contender.rays = contender.blur->rays;
     contender.sampleUnit = contender.blur->sampleUnit;
-    contender.defaultSamples = kInstantsBesideLens;
+    contender.defaultSamples = kInstantsWithLensFilter;
     return contender;
 }
 
@@ -156,12 +156,12 @@ std::vector<SamplePoint> makeAntiAliasedPoints(const std::vector<const game::Met
 }
 
 std::vector<SamplePoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
-    constexpr uint32_t kMostSamples = 4;
+    constexpr uint32_t kMaxSamples = 4;
     std::vector<SamplePoint> points;
     for (const game::MethodInfo* method : methods) {
         const bool isTruth = method->family == game::MethodFamily::Accumulate ||
                              method->family == game::MethodFamily::Truth;
-        points.push_back({method, isTruth ? kMostSamples : method->defaultSamples, !isTruth});
+        points.push_back({method, isTruth ? kMaxSamples : method->defaultSamples, !isTruth});
     }
     return points;
 }

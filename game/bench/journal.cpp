@@ -142,9 +142,9 @@ Journal::Journal(std::filesystem::path file, std::string fingerprint)
         return;
     auto records = readRecords(mFile, mFingerprint);
     if (!records)
-        core::logWarning("{}; measured anew", records.error().message);
+        core::logWarning("{}; measured again", records.error().message);
     else if (!records.value())
-        core::logInfo("{}: measured with other settings, measured anew", mFile.string());
+        core::logInfo("{}: measured with other settings, measured again", mFile.string());
     else
         mRecords = std::move(*records.value());
 }

@@ -133,8 +133,8 @@ class Rounds {
         entry.seconds = secondsOf(drawn.value());
         SHUTTER_TRY(mStage.keepPicture(point, drawn.value()));
         // An expensive picture is drawn once: reuse the warm-up run as the sample.
-        const bool isDear = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
-        return isDear ? mStage.keepSample(point, drawn.value()) : Status();
+        const bool isExpensive = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
+        return isExpensive ? mStage.keepSample(point, drawn.value()) : Status();
     }
 
     Status timeOnce(Entry& entry, uint32_t round) {

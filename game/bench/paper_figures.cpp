@@ -94,9 +94,9 @@ json describePaperFigures() {
               "hybrid over gather. Settings are the paper's in gather_paper and hybrid_paper; "
               "gather "
               "and hybrid have the defaults, which measure better.",
-              "Our times are of another device. Shares of the frame tell more than milliseconds: "
+              "Our times are of another device. Shares of the frame mean more than milliseconds: "
               "on a processor the G-buffer with its shading takes most of the frame, on a graphics "
-              "card the filters take most of what is left."}
+              "card the filters take most of the rest."}
          )}};
 }
 

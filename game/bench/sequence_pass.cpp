@@ -87,15 +87,15 @@ SequencePass::drawFrame(uint32_t frame, core::Progress& progress) {
 }
 
 core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wantLinear) {
-    const game::ShotOptions& look = mSource.options();
+    const game::ShotOptions& shown = mSource.options();
     game::PictureRequest picture;
     picture.frame.view = mSource.view();
     picture.frame.view.usesLens = drawer.options.method->hasLens &&
                                   scene::hasLens(mSource.world(), picture.frame.view.camera);
     picture.method = drawer.options;
-    picture.pixel = look.pixel;
-    picture.seed = look.seed;
-    picture.antiAliasing = look.picture.antiAliasing;
+    picture.pixel = shown.pixel;
+    picture.seed = shown.seed;
+    picture.antiAliasing = shown.picture.antiAliasing;
     picture.frame.wantColor = wantLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&mTonemap};

@@ -16,7 +16,7 @@ constexpr uint32_t kSweepFrames = 4;
 /// Between two frames of which HDR-FLIP is taken.
 constexpr uint32_t kFramesPerLinear = 4;
 /// Largest sample count of methods that count rays: more take seconds a frame.
-constexpr uint32_t kMostRays = 8;
+constexpr uint32_t kMaxRays = 8;
 
 } // namespace
 
@@ -39,7 +39,7 @@ SequencePlan planSequence(
     plan.points = isAliased ? makeSequencePoints(methods) : makeAntiAliasedPoints(methods);
     // Anti-aliasing draws additional frames: one sample count is enough.
     for (const SamplePoint& point :
-         isAliased ? makeSweep(methods, kMostRays) : std::vector<SamplePoint>()) {
+         isAliased ? makeSweep(methods, kMaxRays) : std::vector<SamplePoint>()) {
         // The truth would be compared with itself.
         if (point.method->family == game::MethodFamily::Accumulate &&
             point.samples >= truthInstants)

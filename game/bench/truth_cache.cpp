@@ -20,14 +20,14 @@ readPart(const std::filesystem::path& file, uint32_t width, uint32_t height) {
         return std::nullopt;
     auto read = io::readImage(file);
     if (!read) {
-        core::logWarning("{}; the truth is drawn anew", read.error().message);
+        core::logWarning("{}; the truth is drawn again", read.error().message);
         return std::nullopt;
     }
     const image::Image& truth = read.value();
     if (truth.width == width && truth.height == height && truth.channels == kChannels)
         return std::move(read).value();
     core::logWarning(
-        "'{}' is {}x{} with {}, not {}x{} with {}; the truth is drawn anew",
+        "'{}' is {}x{} with {}, not {}x{} with {}; the truth is drawn again",
         file.string(),
         truth.width,
         truth.height,

@@ -42,7 +42,7 @@ struct HudLine {
 };
 
 /// View settings of a demo's world.
-struct DemoLook {
+struct DemoAppearance {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is drawn: the sky
     math::vec3 ambient{0.0f};    ///< linear RGB of the light from everywhere
     double turbidity = 0.0; ///< of the clear sky that takes the place of both; 0: there is none
@@ -62,7 +62,7 @@ class Demo {
     [[nodiscard]] virtual scene::World& world() = 0;
     /// The active camera of World::cameras. A change is a cut.
     [[nodiscard]] virtual ecs::Entity camera() const = 0;
-    [[nodiscard]] virtual DemoLook look() const = 0;
+    [[nodiscard]] virtual DemoAppearance appearance() const = 0;
     /// One fixed step of kDemoStepSeconds. After the end the world moves on, the score stays.
     virtual void step(const DemoControls& controls) = 0;
     /// Simulated so far; the step count times kDemoStepSeconds.

@@ -26,8 +26,8 @@ void stepBack(double& value, double& rate) {
 
 void stepAim(Aim& aim, const DemoControls& controls) {
     constexpr double dt = kDemoStepSeconds;
-    aim.yaw = std::clamp(aim.yaw + controls.turn * kTurnRate * dt, -kMostYaw, kMostYaw);
-    aim.pitch = std::clamp(aim.pitch + controls.drive * kPitchRate * dt, -kMostPitch, kMostPitch);
+    aim.yaw = std::clamp(aim.yaw + controls.turn * kTurnRate * dt, -kMaxYaw, kMaxYaw);
+    aim.pitch = std::clamp(aim.pitch + controls.drive * kPitchRate * dt, -kMaxPitch, kMaxPitch);
     stepBack(aim.recoil, aim.recoilRate);
     stepBack(aim.kick, aim.kickRate);
 }

@@ -8,16 +8,16 @@ namespace shutter::game {
 
 /// The player's view direction, and the remaining recoil of the last throws.
 struct Aim {
-    double yaw = 0.0;        ///< radians, positive to the right, within kMostYaw
-    double pitch = 0.0;      ///< radians, positive up, within kMostPitch
+    double yaw = 0.0;        ///< radians, positive to the right, within kMaxYaw
+    double pitch = 0.0;      ///< radians, positive up, within kMaxPitch
     double recoil = 0.0;     ///< radians upwards, springs back to 0
     double recoilRate = 0.0; ///< rad/s
     double kick = 0.0;       ///< metres that the launcher is thrust back, springs back to 0
     double kickRate = 0.0;   ///< m/s
 };
 
-inline constexpr double kMostYaw = 0.75;   ///< radians
-inline constexpr double kMostPitch = 0.45; ///< radians
+inline constexpr double kMaxYaw = 0.75;   ///< radians
+inline constexpr double kMaxPitch = 0.45; ///< radians
 
 /// One step of kDemoStepSeconds.
 void stepAim(Aim& aim, const DemoControls& controls);

@@ -14,8 +14,8 @@ using math::dvec3;
 namespace {
 
 constexpr double kRestitution = 0.62;
-constexpr double kGrip = 0.25;     // of the sliding speed that a bounce turns into spin
-constexpr double kMostSpin = 60.0; // rad/s
+constexpr double kGrip = 0.25;    // of the sliding speed that a bounce turns into spin
+constexpr double kMaxSpin = 60.0; // rad/s
 
 /// Off a plane at `wall` across `axis`; `side` is +1 where the room lies above it.
 void bounce(Ball& ball, dvec3& place, int axis, double wall, double side) {
@@ -33,8 +33,8 @@ void bounce(Ball& ball, dvec3& place, int axis, double wall, double side) {
     // As it would roll on.
     ball.spin = glm::cross(normal, ball.velocity) / kBallRadius;
     const double turning = glm::length(ball.spin);
-    if (turning > kMostSpin)
-        ball.spin *= kMostSpin / turning;
+    if (turning > kMaxSpin)
+        ball.spin *= kMaxSpin / turning;
 }
 
 void stepBall(Ball& ball, math::Transform& pose, const BallRoom& room) {

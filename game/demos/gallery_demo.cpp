@@ -165,7 +165,7 @@ void GalleryDemo::simulate(const DemoControls& controls) {
     mCutSeconds += kClosingShotSeconds;
 }
 
-DemoLook GalleryDemo::look() const {
+DemoAppearance GalleryDemo::appearance() const {
     return {{0.42f, 0.58f, 0.78f}, {0.42f, 0.42f, 0.44f}, 3.0, 2.0};
 }
 

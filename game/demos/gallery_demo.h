@@ -18,7 +18,7 @@ class GalleryDemo final : public DemoBase {
 
     [[nodiscard]] const char* name() const override { return "gallery"; }
 
-    [[nodiscard]] DemoLook look() const override;
+    [[nodiscard]] DemoAppearance appearance() const override;
     [[nodiscard]] std::vector<HudLine> hud() const override;
     [[nodiscard]] bool isOver() const override;
 

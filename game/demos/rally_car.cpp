@@ -24,7 +24,7 @@ constexpr double kMeadowGrip = 0.65;
 constexpr double kMeadowDrag = 0.28;  // 1/s
 constexpr double kSlidingGrip = 0.45; // of the grip, with the hand brake on
 constexpr double kHandBrake = 4.5;    // m/s^2
-constexpr double kMostSteer = 0.52;   // rad
+constexpr double kMaxSteer = 0.52;    // rad
 constexpr double kSteerRate = 2.4;    // rad/s
 /// Drag that holds the thrust at kCarMostSpeed.
 constexpr double kDrag = (kThrust - kRolling) / (kCarMostSpeed * kCarMostSpeed);
@@ -90,7 +90,7 @@ void stepCar(CarState& car, const DemoControls& controls, bool onRoad) {
     // Beyond the tyres' grip at this speed more lock would only scrub.
     const double useful =
         std::atan(kWheelBase * 1.1 * kRoadGrip * kGravity / std::max(before * before, 1.0e-3));
-    const double lock = std::min(kMostSteer, useful);
+    const double lock = std::min(kMaxSteer, useful);
     car.steer = approach(car.steer, controls.turn * lock, kSteerRate * dt);
 
     const double speed = stepSpeed(before, controls, onRoad);

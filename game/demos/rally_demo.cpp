@@ -149,7 +149,7 @@ void RallyDemo::simulate(const DemoControls& controls) {
         mEndSeconds = seconds();
 }
 
-DemoLook RallyDemo::look() const {
+DemoAppearance RallyDemo::appearance() const {
     return {{0.30f, 0.52f, 0.86f}, {0.34f, 0.38f, 0.44f}, 2.2, 2.0};
 }
 

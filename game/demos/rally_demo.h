@@ -20,7 +20,7 @@ class RallyDemo final : public DemoBase {
 
     [[nodiscard]] const char* name() const override { return "rally"; }
 
-    [[nodiscard]] DemoLook look() const override;
+    [[nodiscard]] DemoAppearance appearance() const override;
     [[nodiscard]] std::vector<HudLine> hud() const override;
     [[nodiscard]] bool isOver() const override;
     [[nodiscard]] int score() const override;

@@ -17,7 +17,7 @@ using math::dvec3;
 namespace {
 
 constexpr double kPostRestitution = 0.35;
-constexpr double kLeastBounce = 0.6; // m/s: slower contacts do not bounce
+constexpr double kMinBounce = 0.6; // m/s: slower contacts do not bounce
 constexpr double kPostFriction = 0.55;
 constexpr double kPostMostSpin = 60.0; // rad/s: far below half a turn per step
 constexpr double kAirDrag = 0.25;      // 1/s, of the spin
@@ -48,7 +48,7 @@ void meetGround(Rod& rod, const dvec3& arm) {
     const dvec3 speed = rod.velocity + glm::cross(rod.spin, arm);
     if (speed.y >= 0.0)
         return;
-    const double bounce = -speed.y > kLeastBounce ? kPostRestitution : 0.0;
+    const double bounce = -speed.y > kMinBounce ? kPostRestitution : 0.0;
     const double push = -(1.0 + bounce) * speed.y / softness(rod, arm, kUp);
     applyImpulse(rod, arm, kUp * push);
     const dvec3 after = rod.velocity + glm::cross(rod.spin, arm);
@@ -73,8 +73,8 @@ bool meets(const CarState& car, const Rod& rod) {
 
 void throwPost(Rod& rod, const CarState& car) {
     const double speed = glm::length(car.velocity);
-    const dvec2 beside = dvec2(rod.place.x, rod.place.z) - car.place;
-    const dvec2 aside = car.right() * glm::dot(beside, car.right()) * 0.12;
+    const dvec2 fromCar = dvec2(rod.place.x, rod.place.z) - car.place;
+    const dvec2 aside = car.right() * glm::dot(fromCar, car.right()) * 0.12;
     const dvec2 ground = car.velocity * 0.9 + aside * speed;
     rod.velocity = {ground.x, kLift * speed, ground.y};
     // The foot is kicked ahead, the head falls back towards the car.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRideSeconds = 45.0;
 constexpr double kOrbitRate = 0.5; // rad/s
-constexpr double kMostOrbit = 0.7; // radians
+constexpr double kMaxOrbit = 0.7;  // radians
 constexpr double kBob = 0.20;      // metres that a seat rises and sinks
 constexpr double kBobsPerTurn = 2.0;
 constexpr uint32_t kSparksPerRing = 60;
@@ -119,7 +119,7 @@ void SpinDemo::simulate(const DemoControls& controls) {
     const bool wasOver = isOver();
     // After the end the ride runs down.
     stepRide(mRide, wasOver ? DemoControls{.drive = -0.15} : controls);
-    mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMostOrbit, kMostOrbit);
+    mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMaxOrbit, kMaxOrbit);
     placeParts();
     // Seat 0 faces the ring, which is at +Z, at angle 0.
     const bool isBraking = !wasOver && controls.drive <= kHardBrake && mRide.rate >= kSlowestSparks;
@@ -134,7 +134,7 @@ void SpinDemo::simulate(const DemoControls& controls) {
         burst(world().registry, mRingSparks, seconds(), kSparksPerRing);
 }
 
-DemoLook SpinDemo::look() const {
+DemoAppearance SpinDemo::appearance() const {
     return {{0.34f, 0.55f, 0.86f}, {0.40f, 0.40f, 0.42f}, 2.0, 2.0};
 }
 

@@ -20,7 +20,7 @@ class SpinDemo final : public DemoBase {
 
     [[nodiscard]] const char* name() const override { return "spin"; }
 
-    [[nodiscard]] DemoLook look() const override;
+    [[nodiscard]] DemoAppearance appearance() const override;
     [[nodiscard]] std::vector<HudLine> hud() const override;
     [[nodiscard]] bool isOver() const override;
 

@@ -18,7 +18,7 @@ constexpr double kRingPoints = 40.0; // for each rad/s at which it is caught
 constexpr double kMissPoints = -15.0;
 constexpr double kSlowestTarget = 0.9; // rad/s
 constexpr double kFastestTarget = 3.0; // rad/s
-constexpr double kLeastChange = 0.5;   // rad/s between two targets
+constexpr double kMinChange = 0.5;     // rad/s between two targets
 
 double turnBy(double angle, double by) {
     const double turned = angle + by;
@@ -35,7 +35,7 @@ void stepRide(Ride& ride, const DemoControls& controls) {
     constexpr double dt = kDemoStepSeconds;
     const double force = controls.drive > 0.0 ? kRideThrust : kBrake;
     ride.rate += (controls.drive * force - kRideFriction * ride.rate) * dt;
-    ride.rate = std::clamp(ride.rate, 0.0, kMostRideRate);
+    ride.rate = std::clamp(ride.rate, 0.0, kMaxRideRate);
     ride.carousel = turnBy(ride.carousel, ride.rate * dt);
     ride.fan = turnBy(ride.fan, kFanGear * ride.rate * dt);
     ride.mill = turnBy(ride.mill, kMillGear * ride.rate * dt);
@@ -57,7 +57,7 @@ void stepRules(RideRules& rules, const Ride& ride, double horse, bool action, Ra
         return;
     rules.sinceChange = 0.0;
     const double before = rules.targetRate;
-    while (std::abs(rules.targetRate - before) < kLeastChange)
+    while (std::abs(rules.targetRate - before) < kMinChange)
         rules.targetRate = random.between(kSlowestTarget, kFastestTarget);
 }
 

@@ -7,13 +7,13 @@
 
 namespace shutter::game {
 
-inline constexpr double kMostRideRate = 3.4; ///< rad/s of the carousel
-inline constexpr double kFanGear = 9.0;      ///< turns of the fan for one of the carousel
-inline constexpr double kMillGear = -0.7;    ///< of the wind wheel, against it
+inline constexpr double kMaxRideRate = 3.4; ///< rad/s of the carousel
+inline constexpr double kFanGear = 9.0;     ///< turns of the fan for one of the carousel
+inline constexpr double kMillGear = -0.7;   ///< of the wind wheel, against it
 
 /// Angles in [0, 2 pi); those of fan and wind wheel are the carousel's times their gear.
 struct Ride {
-    double rate = 0.0;     ///< rad/s, of the carousel, [0, kMostRideRate]
+    double rate = 0.0;     ///< rad/s, of the carousel, [0, kMaxRideRate]
     double carousel = 0.0; ///< radians, counter-clockwise from above
     double fan = 0.0;      ///< radians
     double mill = 0.0;     ///< radians

@@ -21,9 +21,9 @@ using core::makeError;
 using core::Status;
 
 constexpr uint32_t kMaxSamples = 65536;
-constexpr double kLeastStepPx = 1.0e-3;
-constexpr double kMostStepPx = 1.0e3;
-constexpr uint32_t kMostInstants = 1024; ///< of `--instants auto` without --samples
+constexpr double kMinStepPx = 1.0e-3;
+constexpr double kMaxStepPx = 1.0e3;
+constexpr uint32_t kMaxInstants = 1024; ///< of `--instants auto` without --samples
 
 using M = MethodArguments;
 
@@ -106,12 +106,12 @@ Status interpretInstants(const MethodArguments& arguments, MethodOptions& option
         );
     options.maxStepPx = arguments.maxStepPx.value_or(1.0);
     // Written so that NaN fails.
-    if (!(*options.maxStepPx >= kLeastStepPx && *options.maxStepPx <= kMostStepPx))
+    if (!(*options.maxStepPx >= kMinStepPx && *options.maxStepPx <= kMaxStepPx))
         return makeError(
-            "--max-step {} must lie in [{}, {}]", *options.maxStepPx, kLeastStepPx, kMostStepPx
+            "--max-step {} must lie in [{}, {}]", *options.maxStepPx, kMinStepPx, kMaxStepPx
         );
     if (!arguments.samples)
-        options.samples = kMostInstants;
+        options.samples = kMaxInstants;
     return {};
 }
 

@@ -106,9 +106,9 @@ fs::path findAssetFolder() {
         return named;
     std::error_code ignored;
     const auto program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    const auto beside = program / "assets";
-    if (fs::is_directory(beside, ignored))
-        return beside;
+    const auto inFolder = program / "assets";
+    if (fs::is_directory(inFolder, ignored))
+        return inFolder;
     return (program.parent_path() / "share" / "shutter" / "assets").lexically_normal();
 }
 

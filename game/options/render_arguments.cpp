@@ -53,7 +53,7 @@ constexpr std::array kOutputRows = {
         "frame: that of its number",
         Matters::ToNoPicture
     ),
-    makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),
+    makeRow<&O::aov>("--aov", "intermediates to write next to --out, comma-separated, or all"),
     makeRow<&O::stats>("--stats", "write times and counters to a JSON file", Matters::ToNoPicture),
     makeRow<&O::hashPasses>(
         "--hash-passes",

@@ -133,13 +133,13 @@ Status parseSurroundings(const ShotArguments& arguments, ShotOptions& options) {
     options.surroundings = arguments.surroundings;
     options.turbidity = arguments.sky.value_or(0.0);
     // Written so that NaN fails.
-    if (options.turbidity != 0.0 && !(options.turbidity >= environment::kLeastTurbidity &&
-                                      options.turbidity <= environment::kMostTurbidity))
+    if (options.turbidity != 0.0 && !(options.turbidity >= environment::kMinTurbidity &&
+                                      options.turbidity <= environment::kMaxTurbidity))
         return makeError(
             "--sky {} must lie in [{}, {}], or be 0",
             options.turbidity,
-            environment::kLeastTurbidity,
-            environment::kMostTurbidity
+            environment::kMinTurbidity,
+            environment::kMaxTurbidity
         );
     if (options.turbidity != 0.0 && !arguments.environment.empty())
         return makeError("--sky and --environment exclude each other");

@@ -173,7 +173,7 @@ class Sequence {
         mJournal = std::move(opened).value();
         if (mJournal->before() == SequenceJournal::Before::OtherPictures)
             fmt::print(
-                "{}: the frames on disk were drawn otherwise; all are drawn anew\n",
+                "{}: the frames on disk were drawn otherwise; all are drawn again\n",
                 output.out.string()
             );
         if (!maySkip(mOptions))

@@ -89,7 +89,7 @@ ReplayedReveal::ReplayedReveal(gpu::Device& device)
     mPipeline.emplace(device, desc);
 }
 
-motion_blur::OwnReveal ReplayedReveal::answer(const DumpFrame& frame) {
+motion_blur::HostReveal ReplayedReveal::answer(const DumpFrame& frame) {
     mTargets.clear();
     mTexels.clear();
     for (const char* name : {"revealColor", "revealMotionDepth", "revealEntityId"}) {
@@ -99,7 +99,7 @@ motion_blur::OwnReveal ReplayedReveal::answer(const DumpFrame& frame) {
         );
         mTexels.back().writeBytes(bytes.data(), bytes.size(), 0);
     }
-    motion_blur::OwnReveal reveal;
+    motion_blur::HostReveal reveal;
     reveal.record = [this](const motion_blur::RevealTask& task) { record(task); };
     return reveal;
 }
@@ -127,7 +127,7 @@ void ReplayedReveal::record(const motion_blur::RevealTask& task) {
     vkCmdDispatch(task.commands, (task.width + 7) / 8, (task.height + 7) / 8, 1);
 }
 
-motion_blur::OwnBlended ReplayedDraws::answer(const DumpFrame& frame) {
+motion_blur::HostBlended ReplayedDraws::answer(const DumpFrame& frame) {
     mColors.clear();
     mOpacities.clear();
     const DumpedDraws& drawn = *frame.drawn;
@@ -140,7 +140,7 @@ motion_blur::OwnBlended ReplayedDraws::answer(const DumpFrame& frame) {
             texels = gpu::Buffer(mDevice, "drawn", image->bytes.size(), 0, gpu::MemoryUse::Staging);
             texels.writeBytes(image->bytes.data(), image->bytes.size(), 0);
         }
-    motion_blur::OwnBlended own;
+    motion_blur::HostBlended own;
     own.record = [this](const motion_blur::BlendedTask& task) { record(task); };
     own.area = drawn.area;
     own.instantCount = drawn.instantCount;

@@ -44,7 +44,7 @@ class ReplayedReveal {
 
     /// \param frame holds DumpedReveal::Own. Frees the earlier answers: the GPU must have finished
     /// with them.
-    motion_blur::OwnReveal answer(const DumpFrame& frame);
+    motion_blur::HostReveal answer(const DumpFrame& frame);
 
   private:
     void record(const motion_blur::RevealTask& task);
@@ -63,7 +63,7 @@ class ReplayedDraws {
 
     /// \param frame holds DumpFrame::drawn. Frees the earlier drawing: the GPU must have finished
     /// with it.
-    motion_blur::OwnBlended answer(const DumpFrame& frame);
+    motion_blur::HostBlended answer(const DumpFrame& frame);
 
   private:
     void record(const motion_blur::BlendedTask& task) const;

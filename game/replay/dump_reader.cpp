@@ -25,10 +25,10 @@ using json::JsonNode;
 using json::JsonObject;
 using json::JsonRange;
 
-constexpr int64_t kMostPixels = 32768;
-constexpr double kMostFloat = std::numeric_limits<float>::max();
-constexpr JsonRange kFloats{-kMostFloat, kMostFloat};
-constexpr JsonRange kKeyTimes{-motion_blur::kMostKeyTime, motion_blur::kMostKeyTime};
+constexpr int64_t kMaxPixels = 32768;
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+constexpr JsonRange kFloats{-kMaxFloat, kMaxFloat};
+constexpr JsonRange kKeyTimes{-motion_blur::kMaxKeyTime, motion_blur::kMaxKeyTime};
 
 constexpr std::array<std::pair<std::string_view, Texels>, 5> kTexels{
     {{"half4", Texels::Half4},
@@ -223,10 +223,10 @@ DumpImage readImage(const JsonNode& node, const ImageRow& row, const DumpFrame& 
     image.texels = texels.readChoice(kTexels);
     if (image.texels != row.texels[0] && image.texels != row.texels[1])
         texels.fail("is not what this image holds");
-    image.width = uint32_t(object.require("width").readInteger(1, kMostPixels));
-    image.height = uint32_t(object.require("height").readInteger(1, kMostPixels));
+    image.width = uint32_t(object.require("width").readInteger(1, kMaxPixels));
+    image.height = uint32_t(object.require("height").readInteger(1, kMaxPixels));
     const JsonNode area = object.require("area");
-    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMostPixels)});
+    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMaxPixels)});
     image.area = {
         {int32_t(numbers[0]), int32_t(numbers[1])}, {uint32_t(numbers[2]), uint32_t(numbers[3])}};
     if (numbers[2] < 1.0 || numbers[3] < 1.0 || numbers[0] + numbers[2] > image.width ||
@@ -243,7 +243,7 @@ DumpedDraws readDraws(const JsonNode& node, const DumpFrame& frame) {
     const JsonObject object = node.readObject({"area", "instants", "parts", "opacityInAlpha"});
     DumpedDraws drawn;
     const JsonNode area = object.require("area");
-    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMostPixels)});
+    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMaxPixels)});
     drawn.area = {
         {int32_t(numbers[0]), int32_t(numbers[1])}, {uint32_t(numbers[2]), uint32_t(numbers[3])}};
     if (numbers[2] < 1.0 || numbers[3] < 1.0 || numbers[0] + numbers[2] > frame.width ||
@@ -327,8 +327,8 @@ DumpFrame readFrame(const JsonNode& node) {
     (void)root.require("device").readString();
     (void)root.require("driver").readString();
     (void)root.require("inPlace").readBoolean();
-    frame.width = uint32_t(root.require("width").readInteger(1, kMostPixels));
-    frame.height = uint32_t(root.require("height").readInteger(1, kMostPixels));
+    frame.width = uint32_t(root.require("width").readInteger(1, kMaxPixels));
+    frame.height = uint32_t(root.require("height").readInteger(1, kMaxPixels));
     readSettings(root, frame.settings);
     frame.rasterTime = root.require("rasterTime").readNumber({0.0, 1.0});
     frame.frameNumber = root.require("frameNumber").readInteger();

@@ -103,7 +103,7 @@ void addReplayCommand(CLI::App& app, int& exitStatus) {
         "picture to write, .exr, .png or .jpg; numbered, at %04d if there is one, if there are more"
     );
     command->add_option(
-        "--aov", arguments->aov, "intermediates to write beside --out, comma-separated, or all"
+        "--aov", arguments->aov, "intermediates to write next to --out, comma-separated, or all"
     );
     command->add_flag(
         "--explain", arguments->explain, "say what each frame is drawn from, and check its inputs"

@@ -19,7 +19,7 @@ namespace shutter::game {
 namespace {
 
 /// Clips that a warning names; there may be thousands.
-constexpr size_t kMostNamed = 8;
+constexpr size_t kMaxNamed = 8;
 
 /// An entity, and which of its animated properties: an AnimationPath, or kWeights.
 using Property = std::pair<uint32_t, uint32_t>;
@@ -41,7 +41,7 @@ std::vector<std::set<Property>> collectProperties(const scene::World& world) {
 }
 
 std::string
-joinClips(const scene::World& world, const std::vector<uint32_t>& clips, size_t most = kMostNamed) {
+joinClips(const scene::World& world, const std::vector<uint32_t>& clips, size_t most = kMaxNamed) {
     std::vector<std::string> names;
     for (size_t i = 0; i < std::min(clips.size(), most); ++i)
         names.push_back(describeClip(world, clips[i]));

@@ -17,7 +17,7 @@ namespace shutter::game {
 namespace {
 
 /// With fewer rays, a mover hit by few of them would be missed.
-constexpr uint32_t kLeastRaysToStop = 16;
+constexpr uint32_t kMinRaysToStop = 16;
 
 } // namespace
 
@@ -212,7 +212,7 @@ core::Result<render::FrameResult> PictureDrawer::drawTruth(
 
 bool PictureDrawer::isGoodEnough(const PictureRequest& request, uint32_t rays) const {
     const std::optional<double> error = mSlots[request.slot].truth->standardError();
-    return request.method.error && error && rays >= kLeastRaysToStop &&
+    return request.method.error && error && rays >= kMinRaysToStop &&
            *error <= *request.method.error;
 }
 

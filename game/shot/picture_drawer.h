@@ -36,7 +36,7 @@ struct InstantChoice {
 };
 
 /// Instants of a frame in which a light moves, at least: that moves no point, but shading changes.
-inline constexpr uint32_t kLeastInstantsOfLight = 16;
+inline constexpr uint32_t kMinInstantsOfLight = 16;
 
 /// As few as keep the step, 1 where nothing moves.
 /// \param maxStepPx above 0

@@ -82,7 +82,7 @@ InstantChoice chooseInstants(const render::LongestPath& path, double maxStepPx, 
     InstantChoice choice;
     // Compared as numbers: a way may be longer than any integer.
     const double wanted = std::max(
-        std::ceil(path.px / maxStepPx), path.movesLight ? double{kLeastInstantsOfLight} : 1.0
+        std::ceil(path.px / maxStepPx), path.movesLight ? double{kMinInstantsOfLight} : 1.0
     );
     choice.count = wanted < most ? static_cast<uint32_t>(wanted) : most;
     choice.stepPx = path.px / choice.count;
@@ -150,15 +150,15 @@ core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRe
 
 core::Result<scene::MotionCap>
 PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
-    extract::ViewRequest look = view;
+    extract::ViewRequest capped = view;
     if (std::isfinite(view.exposure.shutter.maxBlurPercent)) {
         finishUntil(0); // measuring draws additional frames
         // Jumps have no motion between their places.
         const auto parts = extract::planExposureParts(world, mRenderer.scene().layout(), view);
         if (!parts.empty())
-            look.exposure = parts.back().exposure;
+            capped.exposure = parts.back().exposure;
     }
-    return mRenderer.measureMotionCap(world, look);
+    return mRenderer.measureMotionCap(world, capped);
 }
 
 core::Status PictureDrawer::check(

@@ -13,7 +13,7 @@ namespace shutter::game {
 
 /// Gives the world a clear sky whose sun is its first directional light, at `seconds`; without one,
 /// the sky of a sun above left, which itself casts no light.
-/// \param turbidity [environment::kLeastTurbidity, environment::kMostTurbidity]
+/// \param turbidity [environment::kMinTurbidity, environment::kMaxTurbidity]
 /// \param intensity factor of the sky's light relative to the sun's, [0, 1000]; 1: physical
 void addSky(scene::World& world, double turbidity, double intensity, double seconds);
 

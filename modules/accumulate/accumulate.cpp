@@ -101,7 +101,7 @@ void Accumulate::setInstant(uint32_t index, uint32_t count) {
     mFrame = {index == 0, index + 1 == count, 1.0, double(count)};
 }
 
-core::Decision Accumulate::ask(const render::ViewFacts&) const {
+core::Decision Accumulate::decide(const render::ViewFacts&) const {
     return {true, "every frame of the picture is added"};
 }
 

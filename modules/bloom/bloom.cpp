@@ -22,11 +22,11 @@ namespace {
 
 using graph::Access;
 
-static_assert(kMostThreshold == shader::kMaxColor);
+static_assert(kMaxThreshold == shader::kMaxColor);
 
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr uint32_t kLeastSidePx = 4; ///< of the smallest image
-constexpr uint32_t kMostLevels = 10;
+constexpr uint32_t kMinSidePx = 4; ///< of the smallest image
+constexpr uint32_t kMaxLevels = 10;
 /// Levels that light is spread over. Each but the coarsest has kOwnShare of the light that the
 /// finer ones leave.
 constexpr int kSpreadLevels = 8;
@@ -87,9 +87,9 @@ float findKneeStart(const BloomSettings& settings) {
 
 uint32_t countLevels(uint32_t width, uint32_t height) {
     uint32_t levels = 0;
-    for (uint32_t side = std::min(width, height) / 2; side >= kLeastSidePx; side /= 2)
+    for (uint32_t side = std::min(width, height) / 2; side >= kMinSidePx; side /= 2)
         ++levels;
-    return std::min(levels, kMostLevels);
+    return std::min(levels, kMaxLevels);
 }
 
 Bloom::Bloom(gpu::Device& device, const BloomSettings& settings)
@@ -100,7 +100,7 @@ void Bloom::configure(const BloomSettings& settings) {
     mSettings = settings;
 }
 
-core::Decision Bloom::ask(const render::ViewFacts& facts) const {
+core::Decision Bloom::decide(const render::ViewFacts& facts) const {
     if (!(mSettings.share > 0.0f))
         return {false, "the lens scatters no light"};
     if (countLevels(facts.width, facts.height) == 0)

@@ -12,7 +12,7 @@
 
 namespace shutter::bloom {
 
-inline constexpr float kMostThreshold = 65000.0f; ///< shader::kMaxColor
+inline constexpr float kMaxThreshold = 65000.0f; ///< shader::kMaxColor
 
 struct BloomSettings {
     float share = 0.0f; ///< of a highlight's light that is scattered, [0, 1]; 0: there is no bloom
@@ -53,7 +53,7 @@ class Bloom : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "bloom"; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 
   private:

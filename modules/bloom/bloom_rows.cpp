@@ -18,7 +18,7 @@ core::SettingRows<BloomSettings> listBloomRows() {
         {"bloomThreshold",
          &S::threshold,
          "",
-         {.lowest = 0, .highest = kMostThreshold, .sliderLowest = 0, .sliderHighest = 4},
+         {.lowest = 0, .highest = kMaxThreshold, .sliderLowest = 0, .sliderHighest = 4},
          "Light above which a pixel is a highlight. 0: all light is scattered.",
          "Bloom from",
          "--bloom-threshold"},

@@ -79,7 +79,7 @@ const std::vector<View>& views() {
          "reveal_id"},
         showColor("noisy", "rays of the denoised method, unfiltered"),
         {{"cost",
-          "fetches a pixel: black 0, blue, red, yellow, white 400; a ray counts 300",
+          "fetches per pixel: black 0, blue, red, yellow, white 400; a ray counts 300",
           kCost},
          kShowHeat,
          "cost"},
@@ -137,7 +137,7 @@ std::set<std::string> listSources(std::string_view name) {
 DebugView::DebugView(gpu::Device& device)
     : mSampler(device.nearestSampler()), mPipeline(device, describePipeline()) {}
 
-core::Decision DebugView::ask(const render::ViewFacts&) const {
+core::Decision DebugView::decide(const render::ViewFacts&) const {
     if (mView.empty())
         return {false, "no intermediate is to be shown"};
     return {true, "an intermediate is shown: " + mView};

@@ -104,11 +104,11 @@ DepthOfField::DepthOfField(gpu::Device& device)
       mReach(device, describePass("lens reach", depth_of_field_reach_comp, 1)) {}
 
 void DepthOfField::configure(const DepthOfFieldSettings& settings) {
-    SHUTTER_CHECK(settings.taps > 0 && settings.taps <= kMostTaps, "{} taps", settings.taps);
+    SHUTTER_CHECK(settings.taps > 0 && settings.taps <= kMaxTaps, "{} taps", settings.taps);
     mSettings = settings;
 }
 
-core::Decision DepthOfField::ask(const render::ViewFacts&) const {
+core::Decision DepthOfField::decide(const render::ViewFacts&) const {
     if (!mSettings.filter)
         return {false, "no filter is chosen"};
     return {true, "the picture is filtered by the camera's lens"};

@@ -16,11 +16,11 @@
 namespace shutter::depth_of_field {
 
 inline constexpr uint32_t kDefaultTaps = 64;
-inline constexpr uint32_t kMostTaps = 1024;
+inline constexpr uint32_t kMaxTaps = 1024;
 
 struct DepthOfFieldSettings {
     const Filter* filter = nullptr; ///< null: there is no depth of field
-    uint32_t taps = kDefaultTaps;   ///< of each gather, [1, kMostTaps]
+    uint32_t taps = kDefaultTaps;   ///< of each gather, [1, kMaxTaps]
 };
 
 /// Side of a tile in pixels, for a picture of that height: circles of confusion reach as far in
@@ -41,7 +41,7 @@ class DepthOfField : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
     void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;
 

@@ -17,8 +17,8 @@ constexpr double kSmoothing = 0.25;   ///< weight of a new frame's time
 constexpr double kRoom = 0.85;        ///< of the budget, for the level above
 constexpr double kFarOver = 1.5;      ///< of the budget: not one level but to where it fits
 constexpr uint32_t kFramesOver = 2;   ///< one slow frame is a hiccup
-constexpr uint32_t kLeastWait = 15;   ///< frames
-constexpr uint32_t kMostWait = 960;   ///< frames
+constexpr uint32_t kMinWait = 15;     ///< frames
+constexpr uint32_t kMaxWait = 960;    ///< frames
 constexpr uint32_t kTrialFrames = 30; ///< a step up that ends within them has failed
 constexpr uint32_t kCalmFrames = 4 * kTrialFrames; ///< after a step up: it has not failed
 
@@ -57,7 +57,7 @@ std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted) {
 }
 
 BudgetController::BudgetController(const BlurBudget& budget, const MotionBlurSettings& wanted)
-    : mBudget(budget), mLevels(makeLevels(wanted)), mWait(kLeastWait) {
+    : mBudget(budget), mLevels(makeLevels(wanted)), mWait(kMinWait) {
     const core::Status valid = validate(budget);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
 }
@@ -85,7 +85,7 @@ void BudgetController::stepDown(double milliseconds) {
     mSmoothed = milliseconds;
     const bool trialFailed = mLevelBefore > mLevel && mFrames <= kTrialFrames;
     if (trialFailed)
-        mWait = std::min(2 * mWait, kMostWait);
+        mWait = std::min(2 * mWait, kMaxWait);
     moveTo(milliseconds > kFarOver * mBudget.milliseconds ? findFitting() : mLevel + 1);
 }
 
@@ -104,7 +104,7 @@ void BudgetController::observe(size_t level, double milliseconds) {
     ++mFrames;
     mFramesOver = milliseconds > mBudget.milliseconds ? mFramesOver + 1 : 0;
     if (mFrames == kCalmFrames && mLevelBefore > mLevel)
-        mWait = kLeastWait;
+        mWait = kMinWait;
     mOver = mFramesOver <= 1 ? milliseconds : std::min(mOver, milliseconds);
     if (mFramesOver >= kFramesOver && mLevel + 1 < mLevels.size())
         stepDown(mOver);

@@ -31,9 +31,9 @@ struct BlurBudget {
 
 struct BudgetLevel {
     MotionBlurSettings settings;
-    double cost = 1.0;       ///< guess: share of the first level's time
-    std::string gaveUp = ""; ///< quality dropped against the requested settings; empty on the first
-                             ///< level
+    double cost = 1.0;               ///< guess: share of the first level's time
+    std::string droppedQuality = ""; ///< quality dropped against the requested settings; empty on
+                                     ///< the first level
 };
 
 /// Makes levels from the requested settings down to four samples along each pixel's motion; each

@@ -15,7 +15,7 @@ namespace shutter::motion_blur {
 namespace {
 
 constexpr float kHalfResolutionPx = 8.0f; ///< motion long enough for half of the resolution
-constexpr uint32_t kLeastSamples = 4;     ///< fewer show ghosts, not blur
+constexpr uint32_t kMinSamples = 4;       ///< fewer show ghosts, not blur
 
 } // namespace
 
@@ -52,7 +52,7 @@ void BudgetLadder::reduceSamples(uint32_t count, double cost) {
     if (count >= mNext.sampleCount)
         return;
     mNext.sampleCount = count;
-    mSamples = fmt::format("{} of {} samples", mMostSamples - count, mMostSamples);
+    mSamples = fmt::format("{} of {} samples", mMaxSamples - count, mMaxSamples);
     add(cost);
 }
 
@@ -69,7 +69,7 @@ void BudgetLadder::changeMethod(
 ) {
     if (mWanted.method->sampleUnit != getMethod(method).sampleUnit) {
         mSamples.clear(); // they counted something else
-        mMostSamples = samples;
+        mMaxSamples = samples;
     }
     mNext.method = &getMethod(method);
     mNext.sampleCount = samples;
@@ -83,11 +83,11 @@ std::vector<BudgetLevel> BudgetLadder::finish() {
 }
 
 void BudgetLadder::add(double cost) {
-    std::string gaveUp;
+    std::string droppedQuality;
     for (const std::string& part : {mResolution, mRaster, mRays, mSamples})
         if (!part.empty())
-            gaveUp += (gaveUp.empty() ? "" : ", ") + part;
-    mLevels.push_back({mNext, cost, gaveUp});
+            droppedQuality += (droppedQuality.empty() ? "" : ", ") + part;
+    mLevels.push_back({mNext, cost, droppedQuality});
 }
 
 void BudgetLadder::addCheapest() {
@@ -95,9 +95,9 @@ void BudgetLadder::addCheapest() {
     cheapest.method = &getMethod("own_velocity");
     cheapest.occluderTest = OccluderTest::None;
     if (mWanted.method->sampleUnit == SampleUnit::Taps)
-        cheapest.sampleCount = std::min(mWanted.sampleCount, kLeastSamples);
+        cheapest.sampleCount = std::min(mWanted.sampleCount, kMinSamples);
     else
-        cheapest.sampleCount = kLeastSamples;
+        cheapest.sampleCount = kMinSamples;
     if (mLevels.back().settings.method == cheapest.method &&
         mLevels.back().settings.sampleCount <= cheapest.sampleCount &&
         mLevels.back().settings.occluderTest == OccluderTest::None)
@@ -113,10 +113,10 @@ void BudgetLadder::addCheapest() {
 }
 
 uint32_t shareOfSamples(uint32_t samples, double share) {
-    return std::max(kLeastSamples, static_cast<uint32_t>(std::lround(samples * share)));
+    return std::max(kMinSamples, static_cast<uint32_t>(std::lround(samples * share)));
 }
 
-void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost) {
+void addLookupLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost) {
     if (wanted.secondRaster) {
         cost *= 0.6; // drawing it takes as long as a sharp picture
         ladder.dropSecondRaster(cost);
@@ -128,7 +128,7 @@ void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, dou
     // truth.
     constexpr uint32_t kTaps = 8;
     ladder.changeMethod(
-        "own_velocity", "the look of what comes over a pixel from beside it", kTaps, 0.12 * cost
+        "own_velocity", "surfaces that move over a pixel from outside", kTaps, 0.12 * cost
     );
 }
 

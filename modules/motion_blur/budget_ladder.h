@@ -39,7 +39,7 @@ class BudgetLadder {
 
     MotionBlurSettings mWanted;
     MotionBlurSettings mNext = mWanted;
-    uint32_t mMostSamples = mWanted.sampleCount; ///< of the method that the levels have now
+    uint32_t mMaxSamples = mWanted.sampleCount; ///< of the method that the levels have now
     std::string mResolution, mRaster, mRays, mSamples;
     std::vector<BudgetLevel> mLevels;
 };
@@ -49,7 +49,7 @@ class BudgetLadder {
 
 /// Adds the levels of a method that looks up samples: no second raster, fewer instants, then each
 /// pixel's own motion alone. \param cost of the level before
-void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
+void addLookupLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
 
 /// Method::addBudgetLevels of a method that has nothing to give up but samples.
 void addSampleLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted);

@@ -25,8 +25,8 @@
 namespace shutter::motion_blur {
 
 class RasterHistory;
-struct OwnReveal;
-struct OwnSamples;
+struct HostReveal;
+struct HostSamples;
 
 /// The raster of the previous frame, as that frame's inputs were.
 struct LentRaster {
@@ -94,12 +94,12 @@ struct MotionBlurInputs {
     /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS only sky
     /// lies behind movers and no ray is traced; only `frameConstants` is used then.
     std::optional<graph::RayScene> rays;
-    const OwnReveal* reveal = nullptr; ///< in place of `rays`; it must outlive the graph
+    const HostReveal* reveal = nullptr; ///< in place of `rays`; it must outlive the graph
     /// For methods of RayNeed::Query (CHECKed), unless `samples` is there.
     std::optional<graph::TimedRays> timedRays;
-    const OwnSamples* samples = nullptr; ///< in place of `timedRays`; it must outlive the graph
+    const HostSamples* samples = nullptr; ///< in place of `timedRays`; it must outlive the graph
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
-    /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
+    /// Numbers the frame for InstantNoise::PerFrame; the next frame has the next number.
     int64_t frameNumber = 0;
     /// Requests the surfaces visible in each pixel of a rectangle at some of the instants
     /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; other methods give none.
@@ -113,12 +113,14 @@ struct MotionBlurInputs {
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.
     bool colorIsWritable = false;
-    /// Index of the frame in flight, below kMostSlots (params.h): the GPU must have finished with
+    /// Index of the frame in flight, below kMaxSlots (params.h): the GPU must have finished with
     /// the slot's last frame.
     uint32_t slot = 0;
 
     /// Whether the method reads back its own counters.
-    [[nodiscard]] bool countsOwn() const { return wantsCounters && wantsMethodCounters; }
+    [[nodiscard]] bool methodCountersEnabled() const {
+        return wantsCounters && wantsMethodCounters;
+    }
 
     /// Whether `color` may be the target of the blurred picture.
     [[nodiscard]] bool mayWriteColor() const {

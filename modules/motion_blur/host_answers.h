@@ -23,12 +23,12 @@ template <class Task> struct HostAnswer {
     bool byRayPipeline = false; ///< they launch a ray-tracing pipeline, not compute shaders
 };
 
-struct OwnReveal : HostAnswer<RevealTask> {};
+struct HostReveal : HostAnswer<RevealTask> {};
 
-struct OwnSamples : HostAnswer<SampleTask> {};
+struct HostSamples : HostAnswer<SampleTask> {};
 
 /// The host's drawing over the blurred picture; fields as in ShutterBlurInputs.
-struct OwnBlended {
+struct HostBlended {
     /// Called once for each part of the exposure, in their order. It must not throw.
     std::function<void(const BlendedTask&)> record;
     VkRect2D area{{0, 0}, {0, 0}};
@@ -39,7 +39,7 @@ struct OwnBlended {
 
 /// Most that MotionBlurSettings::raysPerPixel may be where a host answers: memory is proportional
 /// to it.
-inline constexpr float kMostOwnSamplesPerPixel = 16.0f;
+inline constexpr float kMaxHostSamplesPerPixel = 16.0f;
 
 /// A task that begins with its size; all else is nothing.
 template <class Task> [[nodiscard]] Task makeTask(VkCommandBuffer commands, math::uvec2 sizePx) {

@@ -51,7 +51,7 @@ shader::LayerMotion write(gpu::Buffer& buffer, const PlacedLayer& layer) {
         gpu::splitAddress(buffer.address() + layer.movers),
         gpu::splitAddress(buffer.address() + layer.motions),
         static_cast<uint32_t>(layer.tables->movers.size() - 1),
-        layer.tables->isStill ? 1u : 0u};
+        layer.tables->isStatic ? 1u : 0u};
 }
 
 glm::uvec2 writeRasterRows(gpu::Buffer& buffer, const PlacedLayer& layer) {
@@ -66,7 +66,7 @@ bool mayCrowd(const math::LayerTables& layer) {
     uint32_t count = 0;
     for (const uint32_t mover : layer.movers) {
         const bool isFixed = mover == shader::kWorldMover || mover == shader::kSkyMover;
-        if (mover != shader::kNoMover && !(layer.isStill && isFixed))
+        if (mover != shader::kNoMover && !(layer.isStatic && isFixed))
             ++count;
         if (count > shader::kCandidatesPerTile)
             return true;
@@ -155,7 +155,7 @@ const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     return raster;
 }
 
-void RasterHistory::imagine(glm::uvec2 sizePx) {
+void RasterHistory::fillPlaceholders(glm::uvec2 sizePx) {
     // A handle of nothing: transfers alone need no view of it.
     const auto image = reinterpret_cast<VkImage>(uintptr_t{1});
     gpu::ImageDesc desc{sizePx.x, sizePx.y, VK_FORMAT_R16G16B16A16_SFLOAT};

@@ -47,7 +47,7 @@ class RasterHistory {
     [[nodiscard]] const Raster& turn(glm::uvec2 sizePx);
 
     /// Two rasters that have no memory, for graphs that are compiled and never run.
-    void imagine(glm::uvec2 sizePx);
+    void fillPlaceholders(glm::uvec2 sizePx);
 
     /// Discards the history and frees its memory once the GPU has finished with it.
     void forget();

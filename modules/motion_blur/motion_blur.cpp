@@ -27,11 +27,11 @@ struct MotionBlur::Parts {
 
     /// A frame that counts something.
     struct Declared {
-        const Method* method = nullptr; ///< null: nothing
-        bool countsOwn = false;         ///< the method's own, too
+        const Method* method = nullptr;     ///< null: nothing
+        bool methodCountersEnabled = false; ///< the method's own, too
     };
 
-    std::array<Declared, kMostSlots> declared{}; ///< by slot
+    std::array<Declared, kMaxSlots> declared{}; ///< by slot
 };
 
 MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
@@ -74,7 +74,7 @@ MotionBlurOutputs MotionBlur::add(
     params.response = inputs.response;
     mParts->shared.chooseStillPixelsBy(inputs);
     const Method* const counted = inputs.wantsCounters ? &method : nullptr;
-    mParts->declared.at(inputs.slot) = {counted, inputs.countsOwn()};
+    mParts->declared.at(inputs.slot) = {counted, inputs.methodCountersEnabled()};
     return mParts->find(method).add(graph, inputs, settings, params, mParts->shared);
 }
 
@@ -84,7 +84,7 @@ bool MotionBlur::isReady(const Method& method) {
 
 Counters MotionBlur::counters(uint32_t slot) const {
     Counters counters;
-    const auto& [method, countsOwn] = mParts->declared.at(slot);
+    const auto& [method, methodCountersEnabled] = mParts->declared.at(slot);
     if (!method)
         return counters;
     if (method->countsBlocks) {
@@ -94,7 +94,7 @@ Counters MotionBlur::counters(uint32_t slot) const {
         counters["blocks mixed"] = blocks.mixed;
         counters["blocks masked"] = blocks.masked;
     }
-    if (countsOwn)
+    if (methodCountersEnabled)
         mParts->passes.at(method)->count(slot, counters);
     return counters;
 }

@@ -14,7 +14,7 @@
 namespace shutter::motion_blur {
 
 /// Maximum number of frames in flight, times views; each has its own counters.
-inline constexpr uint32_t kMostSlots = 64;
+inline constexpr uint32_t kMaxSlots = 64;
 
 /// Push constants of every pass: the common part, followed by the method's own block.
 struct PassParams : shader::MotionBlurParams {

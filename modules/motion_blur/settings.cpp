@@ -18,7 +18,7 @@ using Row = core::SettingRow<MotionBlurSettings>;
 constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
 constexpr std::string_view kTraversals[] = {"single", "stepping"};
 constexpr std::string_view kMaskTests[] = {"paper", "relative"};
-constexpr std::string_view kInstantNoises[] = {"off", "fixed", "turning"};
+constexpr std::string_view kInstantNoises[] = {"off", "fixed", "per_frame"};
 constexpr std::string_view kOccluderTests[] = {"none", "velocity"};
 
 std::vector<Row> makeTapRows() {
@@ -169,7 +169,7 @@ std::vector<Row> makeRayRows() {
     };
 }
 
-std::vector<Row> makeLookUpRows() {
+std::vector<Row> makeLookupRows() {
     using S = MotionBlurSettings;
     return {
         {"history",
@@ -177,7 +177,7 @@ std::vector<Row> makeLookUpRows() {
          "",
          {},
          "Whether what this frame hides is looked up in the last frame. Off saves memory and "
-         "leaves gaps behind what moves.",
+         "leaves gaps behind movers.",
          "Last frame"},
         {"secondRaster",
          &S::secondRaster,
@@ -191,7 +191,8 @@ std::vector<Row> makeLookUpRows() {
          "",
          {},
          "Whether pixels see other instants than their neighbours where edges move farther than "
-         "there are instants: grain instead of copies of the edge. Turning has other grain in each "
+         "there are instants: grain instead of copies of the edge. per_frame has other grain in "
+         "each "
          "frame.",
          "Noise"},
         {"raysPerPixel",
@@ -204,7 +205,7 @@ std::vector<Row> makeLookUpRows() {
           .sliderLowest = 0.01,
           .sliderHighest = 16},
          "Most rays for samples that no frame holds, on average over the picture. 0 traces none; "
-         "unlimited traces every sample of what moves.",
+         "unlimited traces every sample of movers.",
          "Rays per pixel"},
     };
 }
@@ -253,7 +254,7 @@ std::vector<Row> makeRivalRows() {
 core::SettingRows<MotionBlurSettings> listSettingRows() {
     static const std::vector<Row> kRows = [] {
         std::vector<Row> rows = makeTapRows();
-        for (const std::vector<Row>& more : {makeRayRows(), makeLookUpRows(), makeRivalRows()})
+        for (const std::vector<Row>& more : {makeRayRows(), makeLookupRows(), makeRivalRows()})
             rows.insert(rows.end(), more.begin(), more.end());
         return rows;
     }();

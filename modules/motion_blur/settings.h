@@ -43,8 +43,8 @@ enum class OccluderTest : uint8_t {
 /// move farther than there are instants, or each its own, which shows as grain.
 enum class InstantNoise : uint8_t {
     Off,
-    Fixed,   ///< in every frame the same ones
-    Turning, ///< in each frame others
+    Fixed,    ///< in every frame the same ones
+    PerFrame, ///< in each frame others
 };
 
 /// Defaults are the best measured values; paperSettings() are the publication's. settings.cpp lists

@@ -41,7 +41,8 @@ class OnePassMethod : public BlockMethod {
 
 void SharedPasses::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
     if (inputs.target.isValid()) {
-        stillPixelsBy = inputs.mayWriteColor() ? StillPixelsBy::CopyBack : StillPixelsBy::WholeCopy;
+        stillPixelsBy =
+            inputs.mayWriteColor() ? StaticPixelsBy::CopyBack : StaticPixelsBy::WholeCopy;
         return;
     }
     // The share of the slot's last frame is a good guess at this one's; the picture is the same
@@ -50,9 +51,9 @@ void SharedPasses::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
     const uint32_t moving = last.uniform + last.mixed + last.masked;
     const uint32_t all = moving + last.still;
     if (!inputs.colorIsWritable || all == 0)
-        stillPixelsBy = StillPixelsBy::WholeCopy;
+        stillPixelsBy = StaticPixelsBy::WholeCopy;
     else
-        stillPixelsBy = chooseStillPixels(double(moving) / double(all), stillPixelsBy);
+        stillPixelsBy = chooseStaticPixels(double(moving) / double(all), stillPixelsBy);
 }
 
 MotionBlurOutputs BlockMethod::add(

@@ -5,7 +5,7 @@
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/cost_view.h"
-#include "modules/motion_blur/passes/still_pixels.h"
+#include "modules/motion_blur/passes/static_pixels.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 
 namespace shutter::motion_blur {
@@ -20,9 +20,9 @@ class SharedPasses {
 
     TileMotion tileMotion;
     BlockSorter sorter;
-    StillPixels stillPixels;
+    StaticPixels stillPixels;
     CostView costView;
-    StillPixelsBy stillPixelsBy = StillPixelsBy::WholeCopy; ///< of this frame
+    StaticPixelsBy stillPixelsBy = StaticPixelsBy::WholeCopy; ///< of this frame
 };
 
 /// Inputs of a filter over blocks of mixed motion.

@@ -85,10 +85,10 @@ extract::ViewRequest makeJittered(const extract::ViewRequest& view, int64_t fram
 Taa::Taa(gpu::Device& device)
     : mDevice(device), mPipeline(device, describePipeline()), mStatic(device) {}
 
-core::Decision Taa::ask(const render::ViewFacts&) const {
+core::Decision Taa::decide(const render::ViewFacts&) const {
     if (!mEnabled)
         return {false, "no temporal anti-aliasing is wanted"};
-    return {true, "each frame samples another place in the pixel of what is static"};
+    return {true, "each frame samples another place in the pixel of static surfaces"};
 }
 
 void Taa::extract(render::ExtractContext& context) {

@@ -43,7 +43,7 @@ Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
     : mDevice(device), mSettings(settings), mPipeline(device, describePipeline(false)),
       mMeasuring(device, describePipeline(true)) {}
 
-core::Decision Tonemap::ask(const render::ViewFacts& facts) const {
+core::Decision Tonemap::decide(const render::ViewFacts& facts) const {
     if (!facts.displayWanted)
         return {false, "only the linear picture is wanted"};
     return {true, "a picture for a display is wanted"};

@@ -21,7 +21,7 @@ core::SettingRows<TonemapSettings> listTonemapRows() {
          core::makeWordField<&S::op>(kOperators),
          "",
          {},
-         "Tone mapper: neutral (Khronos PBR Neutral), or none, which cuts off what is above 1.",
+         "Tone mapper: neutral (Khronos PBR Neutral), or none, which clips values above 1.",
          "Tone mapper",
          "--tonemap"},
     }};

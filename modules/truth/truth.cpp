@@ -69,7 +69,7 @@ void Truth::setBatch(uint32_t first, uint32_t count) {
     mCount = count;
 }
 
-core::Decision Truth::ask(const render::ViewFacts&) const {
+core::Decision Truth::decide(const render::ViewFacts&) const {
     return {true, "every batch is added"};
 }
 
@@ -194,7 +194,7 @@ void Truth::finish(render::FinishedFrame& frame) {
     mStandardError = std::nullopt;
     if (mFirst + mCount >= 2)
         mStandardError = std::sqrt(squares / double(mPixels));
-    frame.counters["rays a pixel"] = mCount;
+    frame.counters["rays per pixel"] = mCount;
     frame.counters["rays traced"] = static_cast<uint64_t>(rays);
     if (mStandardError)
         frame.measures["standard error"] = *mStandardError;

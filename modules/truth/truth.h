@@ -54,14 +54,14 @@ class Truth : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
 
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts&) const override {
         return {true, "every ray has its own time"};
     }
 
     /// Its rays meet no particles.
-    [[nodiscard]] core::Decision askParticles(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decideParticleDraw(const render::ViewFacts&) const override {
         return {true, "its rays meet none"};
     }
 

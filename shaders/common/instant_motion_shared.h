@@ -26,7 +26,7 @@ struct LayerMotion {
     /// the pinhole in its middle.
     uvec2 motions;
     uint rowCount; // of the entity table
-    uint isStill;  // 1: static entities have the same place in the picture at all instants, as in
+    uint isStatic; // 1: static entities have the same place in the picture at all instants, as in
                    // the raster
 };
 

@@ -10,13 +10,13 @@
 SHUTTER_SHADER_BEGIN
 
 /// Maximum number of parts of the exposure with separate colours.
-SHUTTER_CONST uint kMostSurfaceParts = 4u;
+SHUTTER_CONST uint kMaxSurfaceParts = 4u;
 
 struct InstantSurfaces {
     uvec2 originPx; // of the rectangle in the picture
     uvec2 sizePx;
     uint instantCount; // above 0
-    uint partCount;    // of the exposure, up to kMostSurfaceParts and instantCount
+    uint partCount;    // of the exposure, up to kMaxSurfaceParts and instantCount
     uint padding0;
     uint padding1;
 };

@@ -16,10 +16,11 @@ SHUTTER_CONST uint kMaxParticleParts = 8u;
 /// Most segments of a streak.
 SHUTTER_CONST uint kMaxStreakSegments = 4u;
 /// Smaller ones are drawn this large, and fainter: pixels are sampled at their centres.
-SHUTTER_CONST float kLeastParticleRadiusPx = 1.0f;
+SHUTTER_CONST float kMinParticleRadiusPx = 1.0f;
 
 struct ParticleRow {
-    vec4 placeAge;     // xyz eye space, metres, at birth; w age at the raster instant, seconds
+    vec4 placeAge;     // xyz camera-relative space, metres, at birth; w age at the raster instant,
+                       // seconds
     vec4 velocityLife; // xyz m/s at birth, w life, seconds
     float angle;       // of its picture at birth, radians
     float spin;        // rad/s
@@ -42,11 +43,12 @@ struct ParticleEmitterRow {
 
 /// Push constants of a draw of particles.
 struct ParticleDraw {
-    uvec2 frame;    // address of FrameConstants
-    uvec2 rows;     // address of ParticleRow[]
-    uvec2 emitters; // address of ParticleEmitterRow[]
-    uvec2 cameras;  // address of mat4[]: clipFromEye without jitter, at equal steps of the exposure
-    uvec2 response; // address of ResponseTable; 0: a box
+    uvec2 frame;     // address of FrameConstants
+    uvec2 rows;      // address of ParticleRow[]
+    uvec2 emitters;  // address of ParticleEmitterRow[]
+    uvec2 cameras;   // address of mat4[]: clipFromRelWorld without jitter, at equal steps of the
+                     // exposure
+    uvec2 response;  // address of ResponseTable; 0: a box
     vec2 lightShare; // the part of the exposure's light that is drawn; the two equal: the raster
                      // instant
     vec2 jitter;     // added to the picture's places in clip space
@@ -70,7 +72,8 @@ SHUTTER_INLINE vec2 dampedShares(float x) {
     return vec2(first, (1.0f - first) / x);
 }
 
-/// Place of a particle at an age: gravity g and drag k solve v' = g - k v. Eye space, metres.
+/// Place of a particle at an age: gravity g and drag k solve v' = g - k v. Camera-relative space,
+/// metres.
 SHUTTER_INLINE vec3 particlePlace(ParticleRow row, ParticleEmitterRow emitter, float age) {
     vec2 shares = dampedShares(emitter.gravityDrag.w * age);
     return vec3(row.placeAge) + vec3(row.velocityLife) * (age * shares.x) +

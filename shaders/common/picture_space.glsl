@@ -17,11 +17,11 @@ SHUTTER_INLINE vec3 transformRows(vec4 rows[3], vec4 point) {
 }
 
 /// Nearest depth that counts as in front of a perspective camera, metres.
-SHUTTER_CONST float kLeastDepth = 1.0e-6f;
+SHUTTER_CONST float kMinDepth = 1.0e-6f;
 
 SHUTTER_INLINE vec2 projectPicture(vec3 point, bool perspective) {
     vec2 at = vec2(point.x, point.y);
-    return perspective ? at * (1.0f / max(point.z, kLeastDepth)) : at;
+    return perspective ? at * (1.0f / max(point.z, kMinDepth)) : at;
 }
 
 SHUTTER_SHADER_END

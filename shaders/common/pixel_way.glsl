@@ -35,15 +35,15 @@ SHUTTER_INLINE PixelWay straightWay(vec2 motion, float rasterTime) {
 // Words: open x and y or close x and y, 11 bits each; bend x or y, 8 bits; two bits of the exponent of
 // all. A step is 2^exponent / 64 pixels.
 SHUTTER_CONST float kWaySteps = 64.0f; // per pixel, with the least exponent
-SHUTTER_CONST float kMostWaySteps = 1022.0f;
-SHUTTER_CONST float kMostBendSteps = 127.0f;
-SHUTTER_CONST uint kMostWayExponent = 15u;
+SHUTTER_CONST float kMaxWaySteps = 1022.0f;
+SHUTTER_CONST float kMaxBendSteps = 127.0f;
+SHUTTER_CONST uint kMaxWayExponent = 15u;
 
 /// The least exponent with which `steps` of the smallest size fit into `most`.
 SHUTTER_INLINE uint wayExponent(float steps, float most) {
     // 2^exponent > steps / most, by the bits of a positive float.
     int exponent = int(floatBitsToUint(steps / most) >> 23u) - 126;
-    return uint(clamp(exponent, 0, int(kMostWayExponent)));
+    return uint(clamp(exponent, 0, int(kMaxWayExponent)));
 }
 
 SHUTTER_INLINE float largestOf(vec2 v) { return max(abs(v.x), abs(v.y)); }
@@ -56,24 +56,24 @@ SHUTTER_INLINE uint packSteps(float value, float stepsPerPixel, float most) {
 /// \return to a 32nd of a pixel up to 32 pixels, and in proportion beyond
 SHUTTER_INLINE uvec2 packWay(PixelWay way) {
     float longest = max(largestOf(way.open), largestOf(way.close));
-    uint exponent = wayExponent(longest * kWaySteps, kMostWaySteps);
-    exponent = max(exponent, wayExponent(largestOf(way.bend) * kWaySteps, kMostBendSteps));
+    uint exponent = wayExponent(longest * kWaySteps, kMaxWaySteps);
+    exponent = max(exponent, wayExponent(largestOf(way.bend) * kWaySteps, kMaxBendSteps));
     float steps = kWaySteps * exp2(-float(exponent));
-    uint x = packSteps(way.open.x, steps, kMostWaySteps) |
-             packSteps(way.open.y, steps, kMostWaySteps) << 11u |
-             packSteps(way.bend.x, steps, kMostBendSteps) << 22u | (exponent & 3u) << 30u;
-    uint y = packSteps(way.close.x, steps, kMostWaySteps) |
-             packSteps(way.close.y, steps, kMostWaySteps) << 11u |
-             packSteps(way.bend.y, steps, kMostBendSteps) << 22u | (exponent >> 2u) << 30u;
+    uint x = packSteps(way.open.x, steps, kMaxWaySteps) |
+             packSteps(way.open.y, steps, kMaxWaySteps) << 11u |
+             packSteps(way.bend.x, steps, kMaxBendSteps) << 22u | (exponent & 3u) << 30u;
+    uint y = packSteps(way.close.x, steps, kMaxWaySteps) |
+             packSteps(way.close.y, steps, kMaxWaySteps) << 11u |
+             packSteps(way.bend.y, steps, kMaxBendSteps) << 22u | (exponent >> 2u) << 30u;
     return uvec2(x, y);
 }
 
 SHUTTER_INLINE vec2 unpackSteps(uint word) {
-    return vec2(float(word & 0x7FFu), float((word >> 11u) & 0x7FFu)) - (kMostWaySteps + 1.0f);
+    return vec2(float(word & 0x7FFu), float((word >> 11u) & 0x7FFu)) - (kMaxWaySteps + 1.0f);
 }
 
 SHUTTER_INLINE float unpackBend(uint word) {
-    return float((word >> 22u) & 0xFFu) - (kMostBendSteps + 1.0f);
+    return float((word >> 22u) & 0xFFu) - (kMaxBendSteps + 1.0f);
 }
 
 SHUTTER_INLINE PixelWay unpackWay(uvec2 words) {

@@ -16,7 +16,7 @@ SHUTTER_CONST float kHalfBlockPx = 0.5f * float(kGroupSize);
 SHUTTER_CONST float kStretchTolerance = 0.02f;
 /// Least part of its depth in the raster that a surface has left at an instant: nearer ones count as
 /// behind the camera.
-SHUTTER_CONST float kLeastDepthRatio = 1.0e-4f;
+SHUTTER_CONST float kMinDepthRatio = 1.0e-4f;
 
 /// Sample positions of a block's pixels in the raster at an instant: place + perX * x + perY * y, x
 /// and y from the block's centre.
@@ -75,9 +75,9 @@ SHUTTER_INLINE PlaneMap mapPlane(
     map.place = centre + place;
     float depthRatio = dot(rows[2], vec3(place, 1.0f));
     map.pxPerAlong =
-        length(map.perX * perAlong.x + map.perY * perAlong.y) / max(depthRatio, kLeastDepthRatio);
+        length(map.perX * perAlong.x + map.perY * perAlong.y) / max(depthRatio, kMinDepthRatio);
     float stretch = (abs(fromX.z) + abs(fromY.z)) * kHalfBlockPx * abs(scale);
-    map.isAffine = stretch <= kStretchTolerance && depthRatio > kLeastDepthRatio &&
+    map.isAffine = stretch <= kStretchTolerance && depthRatio > kMinDepthRatio &&
                    isFinite(dot(map.perX + map.perY, map.perX + map.perY)) &&
                    isFinite(dot(map.place, map.place));
     return map;

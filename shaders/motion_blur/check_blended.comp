@@ -17,7 +17,7 @@ layout(binding = 0) uniform sampler2D uBlended;
 layout(binding = 1, scalar) buffer Totals { CheckTotals totals; };
 
 // A half float's rounding above 1, as sums of shares have it.
-const float kMostOpacity = 1.001f;
+const float kMaxOpacity = 1.001f;
 
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
@@ -30,5 +30,5 @@ void main() {
         return;
     }
     if (any(lessThan(texel.rgb, vec3(0.0f)))) atomicAdd(totals.counts[kCheckBlendedNegative], 1u);
-    if (texel.a < 0.0f || texel.a > kMostOpacity) atomicAdd(totals.counts[kCheckBlendedOpacity], 1u);
+    if (texel.a < 0.0f || texel.a > kMaxOpacity) atomicAdd(totals.counts[kCheckBlendedOpacity], 1u);
 }

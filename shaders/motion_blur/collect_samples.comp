@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Replaces requested samples by a host's answers. A sample without an answer retains its looked-up
+// Replaces requested samples by a host's answers. A sample without an answer retains its lookedUp-up
 // colour, and so does a pixel without any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
-#include "motion_blur/own_samples_shared.h"
+#include "motion_blur/host_samples_shared.h"
 #include "motion_blur/resolved_shared.h"
 
 const bool kFindsEdges = true;
@@ -38,13 +38,13 @@ void main() {
     Mean mean = Mean(vec3(0.0f), 0u, kFarthest);
     uint firstSlot = slot;
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        LookedUp looked = lookUpAgain(search, pixel, i, shares, guesses);
+        LookedUp lookedUp = lookUpAgain(search, pixel, i, shares, guesses);
         bool isAnswered = false;
-        if (looked.isTraced) {
+        if (lookedUp.isTraced) {
             isAnswered = slot < uHeader.capacity && uAnswers[slot].a > 0.0f;
             ++slot;
         }
-        if (!isAnswered) addKnown(looked, mean);
+        if (!isAnswered) addKnown(lookedUp, mean);
     }
     // Behind the others, as in the pass that traces: sums are the same to the bit.
     uint answered = 0u;

@@ -27,8 +27,8 @@ layout(binding = 4, scalar) readonly buffer Surfaces {
 
 /// The difference between the picture and the mean of the parts' colours.
 vec3 findRest(vec3 picture, uvec2 at) {
-    float shares[kMostSurfaceParts];
-    for (uint part = 0u; part < kMostSurfaceParts; ++part) shares[part] = 0.0f;
+    float shares[kMaxSurfaceParts];
+    for (uint part = 0u; part < kMaxSurfaceParts; ++part) shares[part] = 0.0f;
     for (uint i = 0u; i < uHead.instantCount; ++i)
         shares[surfacePartOf(uHead, i)] += 1.0f / float(uHead.instantCount);
     vec3 rest = vec3(0.0f);

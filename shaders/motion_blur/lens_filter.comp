@@ -22,12 +22,12 @@ vec4 fetchPicture(ivec2 at) {
 vec3 filterAround(ivec2 pixel, vec4 own) {
     vec3 sum = own.rgb;
     float weights = 1.0f;
-    const int kReach = int(ceil(kMostLensFilterPx));
+    const int kReach = int(ceil(kMaxLensFilterPx));
     for (int y = -kReach; y <= kReach; ++y)
         for (int x = -kReach; x <= kReach; ++x) {
             ivec2 at = pixel + ivec2(x, y);
             bool isInside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(params.sizePx)));
-            bool isInReach = float(x * x + y * y) < (kMostLensFilterPx + 0.5f) * (kMostLensFilterPx + 0.5f);
+            bool isInReach = float(x * x + y * y) < (kMaxLensFilterPx + 0.5f) * (kMaxLensFilterPx + 0.5f);
             if (!isInside || !isInReach || (x == 0 && y == 0)) continue;
             vec4 other = fetchPicture(at);
             float radius = min(-own.a, -other.a);

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
-#include "motion_blur/own_samples_shared.h"
+#include "motion_blur/host_samples_shared.h"
 #include "motion_blur/resolved_shared.h"
 
 const bool kFindsEdges = true;
@@ -27,7 +27,7 @@ layout(binding = 25, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
 layout(binding = 26, scalar) writeonly buffer FirstSamples { uint uFirst[]; };
 layout(binding = 27, scalar) buffer Groups { DispatchArguments uGroups; };
 
-const uint kMostChunks = 8u; // of 32 samples
+const uint kMaxChunks = 8u; // of 32 samples
 
 /// Takes room for `count` samples. \return where they begin, which may lie past the list's end
 uint takeRoom(uint count) {
@@ -54,7 +54,7 @@ void main() {
     PixelSearch search = beginSearch(pixel);
     Guesses guesses = beginGuesses(search);
     Mean ignored = Mean(vec3(0.0f), 0u, kFarthest);
-    uint traced[kMostChunks];
+    uint traced[kMaxChunks];
     uint count = 0u;
     for (uint chunk = 0u; chunk * 32u < params.sampleCount; ++chunk) {
         traced[chunk] = addGuesses(search, pixel, chunk * 32u, shares, guesses, ignored);

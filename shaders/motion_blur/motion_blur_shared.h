@@ -78,7 +78,7 @@ SHUTTER_CONST uint kQuadFlag = 0x80000000u;
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.
 struct MaskHeader {
     uint listedPixels;
-    uint raysBeyondOne; // of the listed pixels, nearly all of which trace one
+    uint extraRays;     // of the listed pixels, nearly all of which trace one
     uint sharingPixels; // masked, but in no list: they share a ray of their quad
     uint raylessPixels; // listed, but they traced none
 };

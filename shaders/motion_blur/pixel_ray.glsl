@@ -26,7 +26,7 @@ PixelRay findRay(vec4 rasterFromInstant[3], vec2 x, bool perspective) {
 }
 
 float alongOf(float depth, bool perspective) {
-    return perspective ? 1.0f / max(depth, kLeastDepth) : depth;
+    return perspective ? 1.0f / max(depth, kMinDepth) : depth;
 }
 
 vec2 placeOn(PixelRay ray, float along, bool perspective) {

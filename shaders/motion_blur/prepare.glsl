@@ -99,9 +99,9 @@ SHUTTER_INLINE uvec2 prepareWay(vec4 ends, float rasterTime) {
     way.open = storableMotion(vec2(ends.x, ends.y));
     way.close = storableMotion(vec2(ends.z, ends.w));
     way.bend = vec2(0.0f);
-    const float kLeastShare = 0.36f; // at 0.1 and 0.9
+    const float kMinShare = 0.36f; // at 0.1 and 0.9
     float share = 4.0f * rasterTime * (1.0f - rasterTime); // of the bend, at the raster
-    if (isFinite(share) && abs(share) > kLeastShare)
+    if (isFinite(share) && abs(share) > kMinShare)
         way.bend = (way.open + (way.close - way.open) * rasterTime) * (-1.0f / share);
     return packWay(way);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks up each pixel's sample at each instant of the exposure, in this frame's raster or else in
+// BlockSampleBuffer up each pixel's sample at each instant of the exposure, in this frame's raster or else in
 // the last frame's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -55,7 +55,7 @@ void main() {
     uint searched = params.sampleCount;
     // Rays may go to any of them, and an edge takes several also where the motion is short.
     if (!kFindsEdges && params.uniformMotionPx > 0.0f && !search.isAtEdge)
-        searched = uLooks[search.looks - 1u].perX;
+        searched = uBlockSamples[search.firstSample - 1u].perX;
     for (uint i = 0u; i < searched; ++i) {
         uint taken = takenInstant(i, searched, params.sampleCount);
         uint instant = taken * method.setCount + search.set;

@@ -70,7 +70,7 @@ vec4 lensOf(InstantMotionsRef motions, uint instant) {
 }
 
 /// Pixels, at a depth.
-vec2 lensShift(vec4 lens, float depth) { return lens.xy + lens.zw / max(depth, kLeastDepth); }
+vec2 lensShift(vec4 lens, float depth) { return lens.xy + lens.zw / max(depth, kMinDepth); }
 
 /// Where the places of the lens lie that a sample is taken at; of the number of samples: of all.
 LensReach reachOf(InstantMotionsRef motions, uint sample_) {
@@ -118,7 +118,7 @@ InstantMotion motionAt(
 }
 
 bool isStillMover(LayerMotion layer, uint mover) {
-    return layer.isStill != 0u && (mover == kWorldMover || mover == kSkyMover);
+    return layer.isStatic != 0u && (mover == kWorldMover || mover == kSkyMover);
 }
 
 /// A direction has no place: its depth is 1 and it is not displaced.
@@ -151,9 +151,9 @@ bool isInner(uint corners, vec2 at) {
 }
 
 /// Sample position of a pixel of a block. \param inBlock from the block's centre, pixels
-vec2 lookFrom(BlockLook look, vec2 inBlock) {
-    return look.place + unpackHalf2x16(look.perX) * inBlock.x +
-           unpackHalf2x16(look.perY) * inBlock.y;
+vec2 samplePlace(BlockSample blockSample, vec2 inBlock) {
+    return blockSample.place + unpackHalf2x16(blockSample.perX) * inBlock.x +
+           unpackHalf2x16(blockSample.perY) * inBlock.y;
 }
 
 /// Parts of the exposure for each instant, in fixed point for partOf(). With a lens at most one for each
@@ -178,10 +178,10 @@ uint lensSetOf(uvec2 pixel) {
     return (turn.x >> 1u) << 3u | (turn.y >> 1u) << 2u | fine;
 }
 
-/// Entries of a block in the table of looks: BlockLook.
+/// Entries of a block in the table of firstSample: BlockSample.
 uint looksPerBlock(ResolvedParams method) {
-    uint looks = has(method, kHasLensPlaces) ? 2u * (method.instantCount / kLensSets) : method.instantCount;
-    return looks + 1u;
+    uint firstSample = has(method, kHasLensPlaces) ? 2u * (method.instantCount / kLensSets) : method.instantCount;
+    return firstSample + 1u;
 }
 
 /// Which of the sets of instants a pixel takes.

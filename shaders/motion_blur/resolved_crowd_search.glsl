@@ -39,7 +39,7 @@ Displaced displace(
     float depth = depthOfKey(surface.key, surface.depth);
     vec3 seen =
         transformRows(motion.instantFromRaster, pictureSpace(at, depth, pixel.perspective));
-    if (pixel.perspective && seen.z < kLeastDepth) return unknown;
+    if (pixel.perspective && seen.z < kMinDepth) return unknown;
     return Displaced(true, projectPicture(seen, pixel.perspective), seen.z);
 }
 

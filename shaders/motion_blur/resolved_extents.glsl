@@ -51,7 +51,7 @@ void growExtent(uvec2 surface, ivec2 pixel, inout Extent extent) {
 
 /// Least and greatest 1 / depth.
 vec2 alongsBetween(vec2 depths) {
-    vec2 ends = 1.0f / max(depths, vec2(kLeastDepth));
+    vec2 ends = 1.0f / max(depths, vec2(kMinDepth));
     return vec2(ends.y, ends.x);
 }
 

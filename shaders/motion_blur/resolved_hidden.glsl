@@ -107,7 +107,7 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
 Substitute findSubstitute(PixelSearch pixel, uint instant) {
     if (kHasCrowds && pixel.isCrowded) return Substitute(0.0f, fetchOwnTap(pixel, instant));
     Substitute best = Substitute(kFarthest, vec3(0.0f));
-    if (pixel.raster.isStill != 0u) {
+    if (pixel.raster.isStatic != 0u) {
         Probe surface = fetchSurface(kRasterLayer, ivec2(pixel.x));
         walkToSeen(pixel, instant, kStaticKey, pixel.x, surface, best);
     }

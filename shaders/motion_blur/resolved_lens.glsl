@@ -8,12 +8,12 @@
 /// Share of the least circle of confusion that the filter's radius takes.
 const float kLensFilterShare = 0.18f;
 /// Radii below it gain nothing.
-const float kLeastLensFilterPx = 0.5f;
+const float kMinLensFilterPx = 0.5f;
 
 /// Diameter of the circle of confusion, pixels.
 float confusionAt(InstantMotionsRef motions, float depth) {
     vec2 confusion = motions.value.confusion;
-    return 2.0f * abs(confusion.x - confusion.y / max(depth, kLeastDepth));
+    return 2.0f * abs(confusion.x - confusion.y / max(depth, kMinDepth));
 }
 
 /// How far back towards the pixel the colour is fetched from, as a share of the way over which the
@@ -36,19 +36,19 @@ vec2 shiftForInterpolation(InstantMotionsRef motions, uint instant, float along)
     return share * (lens.xy + lens.zw * along);
 }
 
-/// From where a block looks at a plane by the middle set to where it does by another.
-/// \param look,change of the sample (BlockLook)
-vec2 lookOfSet(InstantMotionsRef motions, BlockLook look, BlockLook change, uint sample_, uint set) {
+/// From where a block firstSample at a plane by the middle set to where it does by another.
+/// \param blockSample,change of the sample (BlockSample)
+vec2 lookOfSet(InstantMotionsRef motions, BlockSample blockSample, BlockSample change, uint sample_, uint set) {
     vec2 seen = change.place.x * (lensOf(motions, sample_ * kLensSets + set).zw -
                                   lensOf(motions, sample_ * kLensSets + kMiddleLensSet).zw);
-    return unpackHalf2x16(look.perX) * seen.x + unpackHalf2x16(look.perY) * seen.y;
+    return unpackHalf2x16(blockSample.perX) * seen.x + unpackHalf2x16(blockSample.perY) * seen.y;
 }
 
 /// Alpha of a pixel whose samples have places of its own, for lens_filter.comp.
 /// \param confusionPx least diameter of a circle of confusion among them
 float alphaForFilter(float confusionPx) {
-    float radius = min(kLensFilterShare * confusionPx, kMostLensFilterPx);
-    return radius >= kLeastLensFilterPx ? -radius : 1.0f;
+    float radius = min(kLensFilterShare * confusionPx, kMaxLensFilterPx);
+    return radius >= kMinLensFilterPx ? -radius : 1.0f;
 }
 
 #endif

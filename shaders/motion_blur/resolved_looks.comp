@@ -26,7 +26,7 @@ layout(push_constant, scalar) uniform Push {
 layout(binding = 0, scalar) readonly buffer RasterCandidates { TileCandidates uRaster[]; };
 layout(binding = 1, scalar) readonly buffer LastCandidates { TileCandidates uLast[]; };
 layout(binding = 2, scalar) readonly buffer Planes { BlockPlane uPlanes[]; };
-layout(binding = 3, scalar) writeonly buffer Looks { BlockLook uLooks[]; };
+layout(binding = 3, scalar) writeonly buffer BlockSampleBuffer { BlockSample uBlockSamples[]; };
 layout(binding = 4, scalar) buffer BlockLists {
     BlockHeader header;
     uint entries[];
@@ -45,12 +45,12 @@ layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Margin around sample positions for linear filtering.
 const float kFetchMarginPx = 1.0f;
-/// Most blocks of the raster, across and down, that a block may look at.
-const int kMostBlocksAcross = kHasLens ? 6 : 4;
+/// Most blocks of the raster, across and down, that a block may blockSample at.
+const int kMaxBlocksAcross = kHasLens ? 6 : 4;
 const float kFarAway = 1.0e4f;
 /// Inverse of the depth that the sky's places are taken at, 1/metre.
-const float kLeastAlong = 1.0e-6f;
-const uint kLeastInstants = 6u;
+const float kMinAlong = 1.0e-6f;
+const uint kMinInstants = 6u;
 /// Motion per instant, in pixels, from which pixels have individual instants, and the further
 /// motion until these are spread over the whole interval. Copies of an edge that lie closer are not
 /// visible, and noise would only be an error. Above 1/2, or blocks with noise would take fewer
@@ -116,7 +116,7 @@ Reach findReach(vec4 rasterFromInstant[3], vec4 corners, vec2 alongs, bool persp
         PixelRay ray = findRay(rasterFromInstant, x, perspective);
         for (uint end = 0u; end < 2u; ++end) {
             vec3 point = ray.base + ray.slope * alongs[end];
-            reach.isInFront = reach.isInFront && (!perspective || point.z > kLeastDepthRatio);
+            reach.isInFront = reach.isInFront && (!perspective || point.z > kMinDepthRatio);
             vec2 place = projectPicture(point, perspective);
             reach.low = min(reach.low, place);
             reach.high = max(reach.high, place);
@@ -182,7 +182,7 @@ PlaneMap lookAt(
     if (!reach.isInFront || !isInside) return none;
     ivec2 low = ivec2(reach.low) / int(kGroupSize);
     ivec2 high = ivec2(reach.high) / int(kGroupSize);
-    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return none;
+    if (any(greaterThanEqual(high - low, ivec2(kMaxBlocksAcross)))) return none;
     ivec2 middle = (low + high) / 2;
     BlockPlane plane = getPlane(middle);
     if (plane.mover != mover) return none;
@@ -200,7 +200,7 @@ PlaneMap lookAt(
         }
     if (kHasLens) {
         float along = plane.along + dot(plane.slope, map.place - centreOf(middle));
-        vec4 place = pictureSpace(map.place, 1.0f / max(along, kLeastAlong), true);
+        vec4 place = pictureSpace(map.place, 1.0f / max(along, kMinAlong), true);
         map.depth = dot(motion.instantFromRaster[2], place);
         map.place += shiftForInterpolation(
             InstantMotionsRef(method.motions), instant, alongOf(map.depth, true)
@@ -231,7 +231,7 @@ bool isShown(
         return false;
     ivec2 low = ivec2(max(reach.low, vec2(0.0f))) / int(kGroupSize);
     ivec2 high = ivec2(min(reach.high, size - 1.0f)) / int(kGroupSize);
-    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return true;
+    if (any(greaterThanEqual(high - low, ivec2(kMaxBlocksAcross)))) return true;
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x)
             if ((getPlane(ivec2(x, y)).keys & bit) != 0u) return true;
@@ -305,13 +305,13 @@ struct Spread {
 struct BlockSearch {
     ivec2 block;
     uint tile;
-    uint looks; // index of the first
+    uint firstSample; // index of the first
     uint parts; // partsPerInstant()
     bool perspective;
     LayerMotion layer;
 };
 
-/// From a place of the block to where it looks in the course of the exposure, at a few instants, by all
+/// From a place of the block to where it firstSample in the course of the exposure, at a few instants, by all
 /// places of the lens: bounds, x and y least and greatest.
 vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
@@ -353,9 +353,9 @@ vec4 boundPlaces(BlockSearch search, uint mover, float along) {
 float leastConfusion(Candidate candidate) {
     if (candidate.key == kSkyKey) return confusionAt(InstantMotionsRef(method.motions), kFarAway);
     vec2 confusion = InstantMotionsRef(method.motions).value.confusion;
-    float nearest = confusion.x - confusion.y / max(uintBitsToFloat(candidate.nearest), kLeastDepth);
+    float nearest = confusion.x - confusion.y / max(uintBitsToFloat(candidate.nearest), kMinDepth);
     float farthest =
-        confusion.x - confusion.y / max(uintBitsToFloat(~candidate.farthestInverted), kLeastDepth);
+        confusion.x - confusion.y / max(uintBitsToFloat(~candidate.farthestInverted), kMinDepth);
     return nearest * farthest <= 0.0f ? 0.0f : 2.0f * min(abs(nearest), abs(farthest));
 }
 
@@ -382,23 +382,23 @@ Spread measureSpread(BlockSearch search, uint lane) {
     return spread;
 }
 
-/// With a lens: how the other sets' looks at a plane differ from the middle one's.
+/// With a lens: how the other sets' firstSample at a plane differ from the middle one's.
 /// \param depth at the instant of what the block's centre sees
-BlockLook findChange(uint sample_, float depth) {
+BlockSample findChange(uint sample_, float depth) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     float along = alongOf(depth, true);
     vec2 confusion = motions.value.confusion;
     float share = 1.0f - shareForInterpolation(abs(confusion.x - confusion.y * along));
     float focus = reachOf(motions, sample_).inverseFocus;
-    return BlockLook(vec2(share * (focus - along), 0.0f), 0u, 0u);
+    return BlockSample(vec2(share * (focus - along), 0.0f), 0u, 0u);
 }
 
-/// Finds and keeps the look of one instant. \return where the block looks, if that is a plane
-PlaneMap findLook(BlockSearch search, uint instant) {
+/// Finds and keeps the blockSample of one instant. \return where the block firstSample, if that is a plane
+PlaneMap findBlockSample(BlockSearch search, uint instant) {
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
     Shared seen = findShared(search.tile, slots, search.perspective);
     // Static surfaces are not candidates: they may hide parts of movers.
-    if (search.layer.isStill != 0u && getPlane(search.block).mover != seen.mover)
+    if (search.layer.isStatic != 0u && getPlane(search.block).mover != seen.mover)
         seen.mover = kNoMover;
     PlaneMap map;
     map.isAffine = false;
@@ -414,18 +414,18 @@ PlaneMap findLook(BlockSearch search, uint instant) {
             findShown(search.block, search.tile, slots, instant, search.layer, search.perspective);
         if (kHasParts)
             map = lookAtParts(
-                search.block, search.tile, shown, instant, search.layer.isStill != 0u
+                search.block, search.tile, shown, instant, search.layer.isStatic != 0u
             );
     }
-    BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
-    if (!map.isAffine) look = BlockLook(vec2(0.0f), kSearchedLook, shown);
+    BlockSample blockSample = BlockSample(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
+    if (!map.isAffine) blockSample = BlockSample(vec2(0.0f), kSearchedBlock, shown);
     if (!kHasLens) {
-        uLooks[search.looks + instant] = look;
+        uBlockSamples[search.firstSample + instant] = blockSample;
         return map;
     }
-    uint index = search.looks + 2u * (instant / kLensSets);
-    uLooks[index] = look;
-    if (map.isAffine) uLooks[index + 1u] = findChange(instant / kLensSets, map.depth);
+    uint index = search.firstSample + 2u * (instant / kLensSets);
+    uBlockSamples[index] = blockSample;
+    if (map.isAffine) uBlockSamples[index + 1u] = findChange(instant / kLensSets, map.depth);
     return map;
 }
 
@@ -434,14 +434,14 @@ struct Found {
     uint instants;  // how many each pixel takes
     float noise;    // how much of it, [0, 1]
     bool isUniform; // it sees a plane at each instant
-    bool isStill;   // it sees itself at each instant
+    bool isStatic;   // it sees itself at each instant
     float leastPx;  // Spread::leastPx
 };
 
 /// \param way motion of the block's sample positions over the exposure, pixels
 void chooseInstants(float way, inout Found found) {
     // About one for each pixel of the way, if that is few enough to leave some out evenly.
-    found.instants = uint(min(way, kFarAway)) + kLeastInstants;
+    found.instants = uint(min(way, kFarAway)) + kMinInstants;
     if (2u * found.instants > params.sampleCount) found.instants = params.sampleCount;
     float distancePx = way / float(params.sampleCount);
     found.noise = 0.0f;
@@ -454,8 +454,8 @@ bool hasEdges(BlockSearch search) { return getPlane(search.block).keys == ~0u; }
 /// With a lens: the samples of one set are spread evenly over it in their order, so that none are left out
 /// but where all of them see the same.
 void chooseSets(Spread spread, inout Found found) {
-    found.isStill = spread.reach <= kStillReachPx;
-    found.instants = spread.way <= kSharedWayPx ? kLeastInstants : params.sampleCount;
+    found.isStatic = spread.reach <= kStillReachPx;
+    found.instants = spread.way <= kSharedWayPx ? kMinInstants : params.sampleCount;
     found.instants = min(found.instants, params.sampleCount);
     found.noise = spread.way > kLensNoiseFromPx * float(params.sampleCount) ? 1.0f : 0.0f;
     found.leastPx = spread.leastPx;
@@ -488,13 +488,13 @@ void addPlace(vec2 place, inout Course course) {
 
 // Data exchanged by the lanes of a block, by block of the group. A lane that is alone needs none of
 // it.
-const uint kMostBlocks = kGroupSize * kGroupSize / 4u;
-shared vec2 sPlaces[kMostBlocks][kMostLooks];
-shared uint sIsPlane[kMostBlocks]; // a bit for each instant
-shared uint sLongest[kMostBlocks]; // bits of measureWays()
-shared uint sIsMixed[kMostBlocks];
-shared uint sReach[kMostBlocks];   // bits of Spread::reach
-shared uint sLeast[kMostBlocks];   // bits of Spread::leastPx
+const uint kMaxBlocks = kGroupSize * kGroupSize / 4u;
+shared vec2 sPlaces[kMaxBlocks][kMaxBlockSamples];
+shared uint sIsPlane[kMaxBlocks]; // a bit for each instant
+shared uint sLongest[kMaxBlocks]; // bits of measureWays()
+shared uint sIsMixed[kMaxBlocks];
+shared uint sReach[kMaxBlocks];   // bits of Spread::reach
+shared uint sLeast[kMaxBlocks];   // bits of Spread::leastPx
 
 /// If pixels take individual sets: finds the lookups of the sets other than the middle one, too.
 /// All lanes of a group call it.
@@ -502,7 +502,7 @@ Found withOwnSets(BlockSearch search, Found found, uint block, uint lane, bool i
     uint middle = middleSet(method);
     if (!kHasLens && isWanted && found.noise != 0.0f)
         for (uint instant = lane; instant < method.instantCount; instant += kLanes)
-            if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
+            if (instant % method.setCount != middle && !findBlockSample(search, instant).isAffine)
                 found.isUniform = false;
     if (kLanes > 1u) {
         if (!found.isUniform) sIsMixed[block] = 1u;
@@ -527,7 +527,7 @@ Spread shareSpread(Spread own, uint block) {
 
 /// Finds the lookup of each instant that the block's pixels may take. All lanes of a group call it.
 /// \param isWanted false: there is no such block
-Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
+Found findBlockSamples(BlockSearch search, uint block, uint lane, bool isWanted) {
     if (kLanes > 1u) {
         if (lane == 0u) {
             sIsPlane[block] = 0u;
@@ -549,7 +549,7 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     uint middle = middleSet(method);
     Course course = Course(0u, vec2(0.0f), 0.0f);
     for (uint i = lane; isWanted && i < params.sampleCount; i += kLanes) {
-        PlaneMap map = findLook(search, i * method.setCount + middle);
+        PlaneMap map = findBlockSample(search, i * method.setCount + middle);
         if (!map.isAffine) continue;
         if (kLanes == 1u) {
             addPlace(map.place, course);
@@ -566,7 +566,7 @@ Found findLooks(BlockSearch search, uint block, uint lane, bool isWanted) {
     }
     Found found;
     found.isUniform = course.planes == params.sampleCount;
-    found.isStill = false;
+    found.isStatic = false;
     found.leastPx = 0.0f;
     if (kHasLens) {
         chooseSets(spread, found);
@@ -598,7 +598,7 @@ void listCrowded(uvec2 block) {
 }
 
 /// A block of a crowded tile, of which nothing is known but how far things go.
-void addCrowded(uvec2 block, uint tile, uint looks) {
+void addCrowded(uvec2 block, uint tile, uint firstSample) {
     if (block % (kCandidateTilePx / kGroupSize) == uvec2(0u))
         atomicAdd(uCounters.crowdedTiles, 1u);
     listCrowded(block);
@@ -606,8 +606,8 @@ void addCrowded(uvec2 block, uint tile, uint looks) {
     Found found;
     chooseInstants(uintBitsToFloat(~CrowdTable(method.crowds).tiles[tile].wayInverted), found);
     if (kHasLens) found.instants = params.sampleCount;
-    uLooks[looks].perX = found.instants;
-    uLooks[looks].perY = floatBitsToUint(found.noise);
+    uBlockSamples[firstSample].perX = found.instants;
+    uBlockSamples[firstSample].perY = floatBitsToUint(found.noise);
 }
 
 /// \return whether something may move in the block's tile
@@ -627,9 +627,9 @@ void main() {
     uvec2 tiles = countTiles(params.sizePx);
     uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
     uint tile = tileAt.y * tiles.x + tileAt.x;
-    uint looks = (block.y * blocks.x + block.x) * looksPerBlock(method);
+    uint firstSample = (block.y * blocks.x + block.x) * looksPerBlock(method);
     if (isThere && isCrowded(tile)) {
-        if (lane == 0u) addCrowded(block, tile, looks);
+        if (lane == 0u) addCrowded(block, tile, firstSample);
         isThere = false;
     }
     isThere = isThere && moves(tile);
@@ -637,15 +637,15 @@ void main() {
     if (params.uniformMotionPx > 0.0f) {
         InstantMotionsRef motions = InstantMotionsRef(method.motions);
         BlockSearch search = BlockSearch(
-            ivec2(block), tile, looks + 1u, partsPerInstant(method),
+            ivec2(block), tile, firstSample + 1u, partsPerInstant(method),
             motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)
         );
-        Found found = findLooks(search, inGroup, lane, isThere);
-        if (kHasLens && found.isStill) isThere = false;
+        Found found = findBlockSamples(search, inGroup, lane, isThere);
+        if (kHasLens && found.isStatic) isThere = false;
         if (isThere && lane == 0u) {
-            if (kHasLens) uLooks[looks].place = vec2(found.leastPx, 0.0f);
-            uLooks[looks].perX = found.instants;
-            uLooks[looks].perY = floatBitsToUint(found.noise);
+            if (kHasLens) uBlockSamples[firstSample].place = vec2(found.leastPx, 0.0f);
+            uBlockSamples[firstSample].perX = found.instants;
+            uBlockSamples[firstSample].perY = floatBitsToUint(found.noise);
         }
         isUniform = kSortsUniform && found.isUniform;
     }

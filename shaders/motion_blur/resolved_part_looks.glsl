@@ -50,7 +50,7 @@ bool isWithin(PlaneMap map, float off, uint key) {
         return false;
     ivec2 low = ivec2(first) / int(kGroupSize);
     ivec2 high = ivec2(last) / int(kGroupSize);
-    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return false;
+    if (any(greaterThanEqual(high - low, ivec2(kMaxBlocksAcross)))) return false;
     for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x)
             if (!showsKey(ivec2(x, y), key)) return false;
@@ -87,7 +87,7 @@ bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
 
 /// Sample positions of a block that sees only parts of one entity, which move alike there.
 /// \param shown the candidates that the block may see
-PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool standsStill) {
+PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool isStatic) {
     PlaneMap map;
     map.isAffine = false;
     if (kHasLens) return map; // parts have no plane to be sheared
@@ -111,7 +111,7 @@ PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool stan
     }
     if (!map.isAffine) return map;
     // Static surfaces are not candidates: they may hide parts of movers.
-    map.isAffine = (!standsStill || showsKey(block, key)) && isWithin(map, farthest, key) &&
+    map.isAffine = (!isStatic || showsKey(block, key)) && isWithin(map, farthest, key) &&
                    seesOneMotion(map, farthest, key, s, block);
     return map;
 }

@@ -7,7 +7,7 @@
 /// Deviation from which a part may be seen at several places at once, pixels.
 const float kWideDeviationPx = 1.0f;
 /// Maximum distance from the fit's estimate within which a part is searched, pixels.
-const float kMostDeviationReachPx = 8.0f;
+const float kMaxDeviationReachPx = 8.0f;
 
 /// Newton's steps from one place: the fit leads to within a pixel or so, and more gain nothing.
 const uint kPartSteps = 2u;
@@ -84,7 +84,7 @@ void searchPart(
     PartWay way = wayAt(part, s);
     PartBack back = invertWay(part, way);
     vec2 at = placeBack(back, x);
-    float reach = min(way.deviation * stretchOf(back), kMostDeviationReachPx);
+    float reach = min(way.deviation * stretchOf(back), kMaxDeviationReachPx);
     vec4 lens = vec4(0.0f);
     if (kHasLens) {
         lens = lensOf(motions, instant);

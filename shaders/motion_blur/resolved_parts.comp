@@ -36,9 +36,9 @@ const uint kPlaceSums = 6u;
 const uint kComponents = 6u;
 const uint kSums = kPlaceSums + 3u * kComponents;
 /// Deviation from which an entity is cut in two, pixels.
-const float kMostDeviationPx = 1.0f;
+const float kMaxDeviationPx = 1.0f;
 /// Largest half used, and the increment that rounds up.
-const float kMostHalf = 60000.0f;
+const float kMaxHalf = 60000.0f;
 const float kUp = 1.001f;
 /// Greatest change of a part's ways per pixel.
 const float kSteepestChange = 1024.0f;
@@ -270,7 +270,7 @@ bool findPart(Choice choice, uvec2 tile, uint index) {
     sumPixels(choice);
     if (sTotals[0] == 0.0f) return false;
     TilePart part = fitPart(choice, tile);
-    vec3 off = min(measureDeviations(choice, part, tile), kMostHalf);
+    vec3 off = min(measureDeviations(choice, part, tile), kMaxHalf);
     // A little more than it is: halves round.
     part.deviations = uvec2(packHalf2x16(off.xy * kUp), packHalf2x16(vec2(off.z * kUp, 0.0f)));
     if (gl_LocalInvocationIndex == 0u) {
@@ -325,7 +325,7 @@ uint findPartsOf(uint key, uvec2 tile, uint index) {
     [[dont_unroll]] for (uint step_ = 0u; step_ < 3u; ++step_) {
         if (step_ == 1u) {
             bool isLast = index + 1u == kPartsPerTile;
-            if (isLast || deviationOf(sParts[index]) <= kMostDeviationPx) return 1u;
+            if (isLast || deviationOf(sParts[index]) <= kMaxDeviationPx) return 1u;
             choice = findCut(key);
             count = 0u;
         }

@@ -51,7 +51,7 @@ PartWay wayAt(TilePart part, float s) {
 }
 
 /// Least size of the determinant of a map that is inverted.
-const float kLeastDeterminant = 0.02f;
+const float kMinDeterminant = 0.02f;
 
 /// The way back: a place of the instant's picture is centre + back * (place - to) in the layer's.
 struct PartBack {
@@ -65,7 +65,7 @@ PartBack invertWay(TilePart part, PartWay way) {
     vec4 a = vec4(1.0f, 0.0f, 0.0f, 1.0f) + way.change;
     float determinant = a.x * a.w - a.y * a.z;
     // Written so that NaN is of no use.
-    bool isOfUse = abs(determinant) > kLeastDeterminant;
+    bool isOfUse = abs(determinant) > kMinDeterminant;
     mat2 back = isOfUse ? mat2(a.w, -a.z, -a.y, a.x) / determinant : mat2(1.0f);
     return PartBack(isOfUse, back, part.centre, part.centre + way.shift);
 }

@@ -38,7 +38,7 @@ struct Mean {
     float confusionPx; // the least of those known
 };
 
-/// A looked-up sample.
+/// A lookedUp-up sample.
 struct LookedUp {
     bool isKnown;
     bool isTraced; // a ray shall replace it
@@ -66,11 +66,11 @@ LookedUp lookUpAgain(
     return LookedUp(isKnown, isChosen, color, confusionPx);
 }
 
-void addKnown(LookedUp looked, inout Mean mean) {
-    if (!looked.isKnown) return;
-    mean.sum += looked.color;
+void addKnown(LookedUp lookedUp, inout Mean mean) {
+    if (!lookedUp.isKnown) return;
+    mean.sum += lookedUp.color;
     ++mean.known;
-    mean.confusionPx = min(mean.confusionPx, looked.confusionPx);
+    mean.confusionPx = min(mean.confusionPx, lookedUp.confusionPx);
 }
 
 /// Adds those of 32 samples that are not traced. \return those that are, a bit each
@@ -80,11 +80,11 @@ uint addGuesses(
 ) {
     uint traced = 0u;
     for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
-        LookedUp looked = lookUpAgain(search, pixel, first + i, shares, guesses);
-        if (looked.isTraced)
+        LookedUp lookedUp = lookUpAgain(search, pixel, first + i, shares, guesses);
+        if (lookedUp.isTraced)
             traced |= 1u << i;
         else
-            addKnown(looked, mean);
+            addKnown(lookedUp, mean);
     }
     return traced;
 }

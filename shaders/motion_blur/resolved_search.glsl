@@ -25,7 +25,7 @@ const float kInnerShare = 0.25f;
 /// Depth of the sky: behind everything.
 const float kFarthest = 3.0e38f;
 /// Places that the way between the nearest and the farthest depth is searched from, at most.
-const uint kMostSeeds = 5u;
+const uint kMaxSeeds = 5u;
 const float kSeedDistancePx = 4.0f;
 /// Ways shorter than this are searched from their middle alone.
 const float kSeedlessWayPx = 2.0f;
@@ -81,8 +81,8 @@ void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     if (key == kNoKey) key = fetchSurface(seen.layer, ivec2(seen.at)).key;
     bvec4 matches = gatherMatches(seen.layer, key, footprint);
     for (uint i = 0u; i < 4u; ++i) {
-        vec3 beside = fetchColor(seen.layer, texelOf(footprint, i));
-        addEdge(matches[i] ? mix(color, beside, kInnerShare) : beside, doubt);
+        vec3 neighbour = fetchColor(seen.layer, texelOf(footprint, i));
+        addEdge(matches[i] ? mix(color, neighbour, kInnerShare) : neighbour, doubt);
     }
 }
 
@@ -123,7 +123,7 @@ bool searchRigid(
                 : surface.depth;
         float depth =
             dot(instantDepthRow, pictureSpace(at, depthOfKey(key, layerDepth), perspective));
-        if (perspective && depth < kLeastDepth) return false;
+        if (perspective && depth < kMinDepth) return false;
         float along = alongOf(depth, perspective);
         if (spreadPx >= kArrivedPx) {
             vec2 next = withinBorder(layer, placeOn(ray, along, perspective));
@@ -168,7 +168,7 @@ uint searchInner(
     if (spreadPx >= kArrivedPx) place = withinBorder(layer, placeOn(ray, along, perspective));
     if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
-    if (perspective && depth < kLeastDepth) return kUnclear;
+    if (perspective && depth < kMinDepth) return kUnclear;
     guess.along = along;
     found = Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true);
     return kFound;
@@ -209,7 +209,7 @@ void searchDepths(
     bool triesGuess = first == kUnclear && (hasGuess || way < kSeedlessWayPx);
     uint seeds = 0u;
     if (way >= kSeedlessWayPx)
-        seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMostSeeds))), 2u);
+        seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMaxSeeds))), 2u);
     // One loop over the guess and the seeds, since compilers write out every call. From near to far: the
     // first place found is, as a rule, the one that hides the others.
     [[dont_unroll]] for (uint i = triesGuess ? 0u : 1u; i <= seeds; ++i) {
@@ -232,7 +232,7 @@ struct PixelSearch {
                    // place
     uint tile;
     bool perspective;
-    uint looks;  // index of the first BlockLook of its block
+    uint firstSample;  // index of the first BlockSample of its block
     uint set;    // of instants
     bool hasOwnSet; // pixels of its block take turns in all sets
     vec2 inBlock; // from the block's centre
@@ -268,7 +268,7 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     vec3 inRaster = transformRows(
         motion.rasterFromInstant, pictureSpace(pixel.x, found.depth, pixel.perspective)
     );
-    if (pixel.perspective && inRaster.z < kLeastDepth) return false;
+    if (pixel.perspective && inRaster.z < kMinDepth) return false;
     vec2 at = projectPicture(inRaster, pixel.perspective);
     if (!isInside(at)) return false;
     if (fromCentre(at) > fromCentre(found.at)) return false;
@@ -327,10 +327,10 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.tile = tile.y * tiles.x + tile.x;
     uvec2 block = uvec2(pixel) / kGroupSize;
     uint blocksAcross = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
-    search.looks = (block.y * blocksAcross + block.x) * looksPerBlock(method) + 1u;
+    search.firstSample = (block.y * blocksAcross + block.x) * looksPerBlock(method) + 1u;
     search.inBlock = search.x - vec2(block * kGroupSize) - 0.5f * float(kGroupSize);
     float noise = 1.0f;
-    if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uLooks[search.looks - 1u].perY);
+    if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uBlockSamples[search.firstSample - 1u].perY);
     search.set = findSet(method, pixel, noise);
     search.hasOwnSet = noise > 0.0f;
     search.isCrowded = kHasCrowds && isCrowded(search.tile);
@@ -369,17 +369,17 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
     uint slots = ~0u;
     if (params.uniformMotionPx > 0.0f) {
         uint sample_ = instant / kLensSets; // with a lens
-        uint index = pixel.looks + (kHasLens ? 2u * sample_ : instant);
-        BlockLook look = uLooks[index];
-        if (look.perX != kSearchedLook) {
-            vec2 at = lookFrom(look, pixel.inBlock);
+        uint index = pixel.firstSample + (kHasLens ? 2u * sample_ : instant);
+        BlockSample blockSample = uBlockSamples[index];
+        if (blockSample.perX != kSearchedBlock) {
+            vec2 at = samplePlace(blockSample, pixel.inBlock);
             if (kHasLens && pixel.set != kMiddleLensSet)
                 at += lookOfSet(
-                    InstantMotionsRef(method.motions), look, uLooks[index + 1u], sample_, pixel.set
+                    InstantMotionsRef(method.motions), blockSample, uBlockSamples[index + 1u], sample_, pixel.set
                 );
             return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true);
         }
-        slots = look.perY;
+        slots = blockSample.perY;
     }
     Seen seen = pixel.still;
     searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);

@@ -70,24 +70,25 @@ struct BlockPlane {
 };
 
 /// Maximum number of instants with lookups per block.
-SHUTTER_CONST uint kMostLooks = 32u;
+SHUTTER_CONST uint kMaxBlockSamples = 32u;
 
 /// The first entry of a block is a header: perX is the number of instants that its pixels take,
 /// perY the bits of a float, their share of InstantNoise, [0, 1]. With a lens place.x is the
 /// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
-/// With a lens there are two entries per sample: the middle set's look and, where that is a plane,
-/// its change. Another set looks at look + perX * d.x + perY * d.y, where d = change.place.x *
-/// (zw of its place - zw of the middle set's) (lensOf()).
+/// With a lens there are two entries per sample: the middle set's blockSample and, where that is a
+/// plane, its change. Another set firstSample at blockSample + perX * d.x + perY * d.y, where d =
+/// change.place.x * (zw of its place - zw of the middle set's) (lensOf()).
 ///
-/// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
-struct BlockLook {
+/// What a block firstSample at in this frame's raster at an instant: a plane (PlaneMap), or
+/// candidates.
+struct BlockSample {
     vec2 place; // of the block's centre, pixels
-    uint perX;  // two halves; kSearchedLook: candidates are searched
+    uint perX;  // two halves; kSearchedBlock: candidates are searched
     uint perY;  // two halves; or a bit for each of the tile's candidates that the block may see
 };
 
-SHUTTER_CONST uint kSearchedLook = 0xFFFFFFFFu; // two NaN
+SHUTTER_CONST uint kSearchedBlock = 0xFFFFFFFFu; // two NaN
 
 /// Samples that rays may replace, by expected error: samples that no layer holds, then edges within
 /// a pixel by the colours on both sides (within one entity, where colours are interpolated, by a
@@ -105,7 +106,7 @@ SHUTTER_CONST uint kNoRayLimit = 0xFFFFFFFFu;
 /// without.
 SHUTTER_CONST uint kInstantSets = 5u;
 /// Greatest radius of the filter over pixels that have sets of a lens's places, pixels.
-SHUTTER_CONST float kMostLensFilterPx = 1.6f;
+SHUTTER_CONST float kMaxLensFilterPx = 1.6f;
 /// Side of the mask that they choose by; a power of two.
 SHUTTER_CONST uint kNoiseSidePx = 64u;
 
@@ -151,7 +152,7 @@ static_assert(sizeof(shutter::shader::Candidate) == 16);
 static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
-static_assert(sizeof(shutter::shader::BlockLook) == 16);
+static_assert(sizeof(shutter::shader::BlockSample) == 16);
 static_assert(sizeof(shutter::shader::TileCrowd) == 128);
 static_assert(sizeof(shutter::shader::ResolvedParams) == 60);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);

@@ -18,52 +18,52 @@ layout(push_constant, scalar) uniform Push {
 };
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1, rgba16f) uniform writeonly image2D uBlurred;
-layout(binding = 2, scalar) readonly buffer Looks { BlockLook uLooks[]; };
+layout(binding = 2, scalar) readonly buffer BlockSampleBuffer { BlockSample uBlockSamples[]; };
 
 /// Pixels of a block, in one column, per thread: they share loaded data.
 const uint kRows = kGroupSize / kThreadRows;
 
 /// Adds the samples of all pixels of the column at the same instants.
-void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
+void addShared(uint firstSample, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    uint first = looks + (kHasLens ? 0u : middleSet(method));
+    uint first = firstSample + (kHasLens ? 0u : middleSet(method));
     uint perSample = kHasLens ? 2u : method.setCount;
     for (uint i = 0u; i < count; ++i) {
         uint taken = takenInstant(i, count, params.sampleCount);
-        BlockLook look = uLooks[first + taken * perSample];
-        vec2 at = lookFrom(look, inBlock) * pixelsToUv;
-        vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows) * pixelsToUv;
+        BlockSample blockSample = uBlockSamples[first + taken * perSample];
+        vec2 at = samplePlace(blockSample, inBlock) * pixelsToUv;
+        vec2 step_ = unpackHalf2x16(blockSample.perY) * float(kThreadRows) * pixelsToUv;
         for (uint row = 0u; row < kRows; ++row)
             sums[row] += textureLod(uColor, at + step_ * float(row), 0.0f).rgb;
     }
 }
 
 /// Adds the samples of each pixel at individual instants.
-void addOwn(ivec2 pixel, uint looks, vec2 inBlock, float noise, inout vec3 sums[kRows]) {
+void addOwn(ivec2 pixel, uint firstSample, vec2 inBlock, float noise, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     for (uint row = 0u; row < kRows; ++row) {
         ivec2 below = ivec2(0, row * kThreadRows);
-        uint first = looks + findSet(method, pixel + below, noise);
+        uint first = firstSample + findSet(method, pixel + below, noise);
         for (uint i = 0u; i < params.sampleCount; ++i) {
-            vec2 at = lookFrom(uLooks[first + i * method.setCount], inBlock + vec2(below));
+            vec2 at = samplePlace(uBlockSamples[first + i * method.setCount], inBlock + vec2(below));
             sums[row] += textureLod(uColor, at * pixelsToUv, 0.0f).rgb;
         }
     }
 }
 
 /// The same with a lens, by whose sets they differ: every fourth row has the same.
-void addThroughLens(ivec2 pixel, uint looks, vec2 inBlock, inout vec3 sums[kRows]) {
+void addThroughLens(ivec2 pixel, uint firstSample, vec2 inBlock, inout vec3 sums[kRows]) {
     const uint kTurns = kRows < 4u ? kRows : 4u;
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        BlockLook look = uLooks[looks + 2u * i];
-        BlockLook change = uLooks[looks + 2u * i + 1u];
-        vec2 at = lookFrom(look, inBlock);
-        vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows);
+        BlockSample blockSample = uBlockSamples[firstSample + 2u * i];
+        BlockSample change = uBlockSamples[firstSample + 2u * i + 1u];
+        vec2 at = samplePlace(blockSample, inBlock);
+        vec2 step_ = unpackHalf2x16(blockSample.perY) * float(kThreadRows);
         for (uint turn = 0u; turn < kTurns; ++turn) {
             uint set = lensSetOf(uvec2(pixel + ivec2(0, turn * kThreadRows)));
-            vec2 own = at + lookOfSet(motions, look, change, i, set);
+            vec2 own = at + lookOfSet(motions, blockSample, change, i, set);
             for (uint row = turn; row < kRows; row += kTurns)
                 sums[row] += textureLod(uColor, (own + step_ * float(row)) * pixelsToUv, 0.0f).rgb;
         }
@@ -75,20 +75,20 @@ void main() {
     if (!findBlock(params.sizePx, block)) return;
     ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
     uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    uint looks = (block.y * blocks.x + block.x) * looksPerBlock(method);
-    uint count = uLooks[looks].perX;
-    float noise = uintBitsToFloat(uLooks[looks].perY);
+    uint firstSample = (block.y * blocks.x + block.x) * looksPerBlock(method);
+    uint count = uBlockSamples[firstSample].perX;
+    float noise = uintBitsToFloat(uBlockSamples[firstSample].perY);
     vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
     vec3 sums[kRows];
     for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
     if (kHasLens && noise > 0.0f)
-        addThroughLens(pixel, looks + 1u, inBlock, sums);
+        addThroughLens(pixel, firstSample + 1u, inBlock, sums);
     else if (noise > 0.0f)
-        addOwn(pixel, looks + 1u, inBlock, noise, sums);
+        addOwn(pixel, firstSample + 1u, inBlock, noise, sums);
     else
-        addShared(looks + 1u, count, inBlock, sums);
+        addShared(firstSample + 1u, count, inBlock, sums);
     float alpha = 1.0f;
-    if (kHasLens && noise > 0.0f) alpha = alphaForFilter(uLooks[looks].place.x);
+    if (kHasLens && noise > 0.0f) alpha = alphaForFilter(uBlockSamples[firstSample].place.x);
     for (uint row = 0u; row < kRows; ++row) {
         ivec2 to = pixel + ivec2(0, row * kThreadRows);
         if (all(lessThan(uvec2(to), params.sizePx)))

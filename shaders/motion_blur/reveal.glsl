@@ -17,7 +17,7 @@ layout(set = 0, binding = 8) uniform accelerationStructureEXT uScene;
 Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
     ShadedHit shaded = shadeRasterHit(frame, rayHit.id, direction);
     vec2 motion = motionOfPoint(frame, rayHit.id, shaded.objectPosition);
-    float depth = dot(shaded.eyePosition, frame.value.forward.xyz);
+    float depth = dot(shaded.relWorldPosition, frame.value.forward.xyz);
     return Revealed(shaded.color, vec4(motion, depth, 0.0f), rayHit.id.entity);
 }
 
@@ -91,7 +91,7 @@ void revealPixel(uint index) {
     uint entry = pixels[index];
     uint rays;
     Revealed revealed = traceReveal(pixelOf(entry), rays);
-    if (rays > 1u) atomicAdd(header.raysBeyondOne, rays - 1u);
+    if (rays > 1u) atomicAdd(header.extraRays, rays - 1u);
     if (rays == 0u) atomicAdd(header.raylessPixels, 1u);
     storeRevealed(entry, revealed);
 }

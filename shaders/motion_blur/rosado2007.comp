@@ -21,9 +21,9 @@ vec2 cameraMotion(FrameRef at, ViewRay ray, float depth) {
     vec3 forward = at.value.forward.xyz;
     float beyondNear = depth - dot(ray.origin, forward);
     vec3 point = ray.origin + ray.direction * (beyondNear / dot(ray.direction, forward));
-    vec4 open = at.value.clipFromEyeOpen * vec4(point, 1.0f);
-    vec4 close = at.value.clipFromEyeClose * vec4(point, 1.0f);
-    vec4 visible = at.value.clipFromEye * vec4(point, 1.0f);
+    vec4 open = at.value.clipFromRelWorldOpen * vec4(point, 1.0f);
+    vec4 close = at.value.clipFromRelWorldClose * vec4(point, 1.0f);
+    vec4 visible = at.value.clipFromRelWorld * vec4(point, 1.0f);
     return motionFromClip(
         open.xyw, close.xyw, visible.xyw, at.value.forward.w, at.value.sizePx
     );

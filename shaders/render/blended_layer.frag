@@ -46,18 +46,18 @@ void main() {
     LayerInstant instant = LayerInstantRef(draw.instant).value;
     MaterialRow material = materialOf(frame, draw.geometry);
     SurfacePoint point = pointOfFragment();
-    vec3 tested = transformRows(instant.testFromEye, vec4(inEyePosition, 1.0f));
+    vec3 tested = transformRows(instant.testFromRelWorld, vec4(inRelWorldPosition, 1.0f));
     float hiding = kReadsInstants ? depthOfInstant() : depthOfRaster(tested);
     if (tested.z > hiding * (1.0f + kLayerDepthSlack)) discard;
 
-    vec3 viewDirection = viewDirectionTo(frame, inEyePosition);
+    vec3 viewDirection = viewDirectionTo(frame, inRelWorldPosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
     // Tables of shadows go by the raster's picture.
-    vec4 clip = frame.value.clipFromEye * vec4(inEyePosition, 1.0f);
-    vec2 inRaster = (clip.xy / max(clip.w, kLeastDepth) * 0.5f + 0.5f) * frame.value.sizePx;
+    vec4 clip = frame.value.clipFromRelWorld * vec4(inRelWorldPosition, 1.0f);
+    vec2 inRaster = (clip.xy / max(clip.w, kMinDepth) * 0.5f + 0.5f) * frame.value.sizePx;
     inRaster = clamp(inRaster, vec2(0.0f), frame.value.sizePx - 1.0f);
     vec3 color = shadeSurface(
-        frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame),
+        frame, material, surface, inRelWorldPosition, viewDirection, lightsAtRaster(frame),
         ShadowSource(true, 0u, draw.entity, moversOfTile(frame, inRaster))
     );
     BlendShares shares = blendSharesOf(material.flags, surface.alpha);

@@ -13,7 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer La
 };
 layout(push_constant, scalar) uniform Push { LayerDraw draw; };
 
-layout(location = 0) out vec3 outEyePosition;
+layout(location = 0) out vec3 outRelWorldPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec4 outUv;
@@ -36,8 +36,8 @@ void main() {
     vec3 position = positionAt(geometry, vertex, time);
     gl_Position = place.clipFromObject * vec4(position, 1.0f);
     Placement placement = placeAtRaster(frame, draw.entity);
-    placement.eyeFromObject = place.eyeFromObject;
-    outEyePosition = transformPoint(placement, position);
+    placement.relWorldFromObject = place.relWorldFromObject;
+    outRelWorldPosition = transformPoint(placement, position);
     outNormal = transformNormal(placement, vertex.normalV0.xyz);
     outTangent = vec4(
         transformDirection(placement, vertex.tangent.xyz), vertex.tangent.w * placement.handedness

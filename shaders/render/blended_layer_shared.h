@@ -9,15 +9,16 @@ SHUTTER_SHADER_BEGIN
 
 /// Where an entity is at an instant.
 struct LayerPlace {
-    mat4 clipFromObject;   // with the camera of that instant
-    vec4 eyeFromObject[3]; // rows; eye space of the raster instant (scene_shared.h)
+    mat4 clipFromObject; // with the camera of that instant
+    vec4
+        relWorldFromObject[3]; // rows; camera-relative space of the raster instant (scene_shared.h)
 };
 
 /// Data shared by all draws of an instant.
 struct LayerInstant {
-    // Rows: from eye space to the picture space in which depths are compared
+    // Rows: from camera-relative space to the picture space in which depths are compared
     // (instant_motion_shared.h): of the instant's camera, or of the raster's.
-    vec4 testFromEye[3];
+    vec4 testFromRelWorld[3];
     float time; // shutter time, [0, 1]
     float weight;
     float padding0;

@@ -14,7 +14,7 @@ struct DistributedSample {
     float depth;         // metres along the view direction of that time; kSkyDepth: nothing
     vec3 normal;         // world axes, unit; 0: nothing
     vec3 objectPosition; // where on the entity, its own space
-    vec3 eyePosition;    // eye space, at that time
+    vec3 relWorldPosition;    // camera-relative space, at that time
     uint rays;           // traced for it
 };
 
@@ -40,13 +40,13 @@ uint traceShadows(
         LightRow light = lightAt(lights, i);
         vec3 toLight;
         vec3 irradiance;
-        evaluateLight(light, point.eyePosition, toLight, irradiance);
+        evaluateLight(light, point.relWorldPosition, toLight, irradiance);
         if (irradiance == vec3(0.0f)) continue;
         vec3 side = dot(normal, toLight) < 0.0f ? -normal : normal;
-        vec3 start = point.eyePosition + side * shadowRayOffset(point.eyePosition);
+        vec3 start = point.relWorldPosition + side * shadowRayOffset(point.relWorldPosition);
         query.tMax = light.kind == kLightDirectional
                          ? 1.0e30f
-                         : distance(light.positionRange.xyz, point.eyePosition);
+                         : distance(light.positionRange.xyz, point.relWorldPosition);
         if (traceTimedRay(scene, frame, moving, start, toLight, query).found) dark |= 1u << i;
     }
     return dark;
@@ -64,7 +64,7 @@ DistributedSample traceDistributed(
     result.depth = kSkyDepth;
     result.normal = vec3(0.0f);
     result.objectPosition = vec3(0.0f);
-    result.eyePosition = vec3(0.0f);
+    result.relWorldPosition = vec3(0.0f);
     result.rays = 0u;
     float transmitted = 1.0f;
     TimedQuery query = TimedQuery(s, ray.eye, kSolidMask | kBlendedMask, 0.0f, 1.0e30f, false);
@@ -87,10 +87,10 @@ DistributedSample traceDistributed(
         result.radiance += transmitted * (last ? 1.0f : shaded.light) * shaded.color;
         if (last) {
             result.id = rayHit.id;
-            result.depth = dot(shaded.eyePosition - ray.eye, ray.forward);
+            result.depth = dot(shaded.relWorldPosition - ray.eye, ray.forward);
             result.normal = shaded.normal;
             result.objectPosition = shaded.objectPosition;
-            result.eyePosition = shaded.eyePosition;
+            result.relWorldPosition = shaded.relWorldPosition;
             break;
         }
         transmitted *= 1.0f - shaded.alpha;

@@ -27,12 +27,12 @@ void main() {
     FrameRef frame = FrameRef(draw.frame);
     MaterialRow material = materialOf(frame, draw.geometry);
     SurfacePoint point = pointOfFragment();
-    vec3 viewDirection = viewDirectionTo(frame, inEyePosition);
+    vec3 viewDirection = viewDirectionTo(frame, inRelWorldPosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
     if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;
 
     vec3 color = shadeSurface(
-        frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame),
+        frame, material, surface, inRelWorldPosition, viewDirection, lightsAtRaster(frame),
         ShadowSource(true, 0u, draw.entity, moversOfTile(frame, gl_FragCoord.xy))
     );
     vec4 blended = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
@@ -49,7 +49,7 @@ void main() {
             inClipOpen, inClipClose, visible, frame.value.forward.w, frame.value.sizePx
         );
     }
-    float depth = dot(inEyePosition, frame.value.forward.xyz);
+    float depth = dot(inRelWorldPosition, frame.value.forward.xyz);
     writeTargets(blended, surface.normal, motion, depth, draw.entity);
 }
 

@@ -7,7 +7,7 @@ layout(constant_id = 2) const uint kMoves = 1u; // 0: the entity has no motion
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
-layout(location = 0) out vec3 outEyePosition;
+layout(location = 0) out vec3 outRelWorldPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec4 outUv;
@@ -37,7 +37,7 @@ void main() {
         outClipClose = (motion.clipFromObjectClose * positionClose).xyw;
     }
     Placement placement = placeAtRaster(frame, draw.entity);
-    outEyePosition = transformPoint(placement, position.xyz);
+    outRelWorldPosition = transformPoint(placement, position.xyz);
     outNormal = transformNormal(placement, vertex.normalV0.xyz);
     outTangent = vec4(
         transformDirection(placement, vertex.tangent.xyz), vertex.tangent.w * placement.handedness

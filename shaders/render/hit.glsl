@@ -21,7 +21,7 @@ struct Hit {
 
 /// Where an entity is at one instant, and which triangles it has.
 struct Placement {
-    vec4 eyeFromObject[3]; // rows of the 3x4 matrix
+    vec4 relWorldFromObject[3]; // rows of the 3x4 matrix
     float handedness;      // -1 where it mirrors, else 1
     uint firstGeometry;
     bool deforms;            // its shape changes: its vertices lie between two keys
@@ -37,7 +37,7 @@ bool hasEntityRow(FrameRef frame, uint entity) { return entity < frame.value.ent
 Placement placeAtRaster(FrameRef frame, uint entity) {
     EntityTable entities = EntityTable(frame.value.entities);
     Placement placement;
-    placement.eyeFromObject = entities.rows[entity].eyeFromObject;
+    placement.relWorldFromObject = entities.rows[entity].relWorldFromObject;
     placement.handedness = entities.rows[entity].handedness;
     placement.firstGeometry = entities.rows[entity].firstGeometry;
     placement.deforms = false;
@@ -48,20 +48,20 @@ Placement placeAtRaster(FrameRef frame, uint entity) {
 
 vec3 transformPoint(Placement placement, vec3 p) {
     vec4 h = vec4(p, 1.0f);
-    return vec3(dot(placement.eyeFromObject[0], h), dot(placement.eyeFromObject[1], h),
-                dot(placement.eyeFromObject[2], h));
+    return vec3(dot(placement.relWorldFromObject[0], h), dot(placement.relWorldFromObject[1], h),
+                dot(placement.relWorldFromObject[2], h));
 }
 
 vec3 transformDirection(Placement placement, vec3 d) {
-    return vec3(dot(placement.eyeFromObject[0].xyz, d), dot(placement.eyeFromObject[1].xyz, d),
-                dot(placement.eyeFromObject[2].xyz, d));
+    return vec3(dot(placement.relWorldFromObject[0].xyz, d), dot(placement.relWorldFromObject[1].xyz, d),
+                dot(placement.relWorldFromObject[2].xyz, d));
 }
 
 /// Normals go with the cofactor matrix: right for any scale, mirrored ones included.
 vec3 transformNormal(Placement placement, vec3 n) {
-    vec3 x = vec3(placement.eyeFromObject[0].x, placement.eyeFromObject[1].x, placement.eyeFromObject[2].x);
-    vec3 y = vec3(placement.eyeFromObject[0].y, placement.eyeFromObject[1].y, placement.eyeFromObject[2].y);
-    vec3 z = vec3(placement.eyeFromObject[0].z, placement.eyeFromObject[1].z, placement.eyeFromObject[2].z);
+    vec3 x = vec3(placement.relWorldFromObject[0].x, placement.relWorldFromObject[1].x, placement.relWorldFromObject[2].x);
+    vec3 y = vec3(placement.relWorldFromObject[0].y, placement.relWorldFromObject[1].y, placement.relWorldFromObject[2].y);
+    vec3 z = vec3(placement.relWorldFromObject[0].z, placement.relWorldFromObject[1].z, placement.relWorldFromObject[2].z);
     return (cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z) * placement.handedness;
 }
 
@@ -133,7 +133,7 @@ Hit fetchHit(FrameRef frame, Placement placement, HitId id) {
     Hit hit;
     hit.material = geometry.material;
     hit.objectPosition = a.positionU0.xyz * w.x + b.positionU0.xyz * w.y + c.positionU0.xyz * w.z;
-    hit.point.eyePosition = transformPoint(placement, hit.objectPosition);
+    hit.point.relWorldPosition = transformPoint(placement, hit.objectPosition);
     vec3 objectEdge1 = b.positionU0.xyz - a.positionU0.xyz;
     vec3 objectEdge2 = c.positionU0.xyz - a.positionU0.xyz;
     vec3 edge1 = transformDirection(placement, objectEdge1);

@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
     ParticleEmitterRow rows[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ParticleCameras {
-    mat4 clipFromEye[];
+    mat4 clipFromRelWorld[];
 };
 
 layout(push_constant, scalar) uniform Push { ParticleDraw draw; };
@@ -45,10 +45,10 @@ SeenParticle seeParticle(FrameRef frame, ParticleRow row, ParticleEmitterRow emi
     float last = float(draw.cameraCount - 1u);
     float at = step_ * last;
     float first = clamp(floor(at), 0.0f, max(last - 1.0f, 0.0f));
-    mat4 camera = cameras.clipFromEye[uint(first)];
+    mat4 camera = cameras.clipFromRelWorld[uint(first)];
     vec4 clip = camera * place;
     if (draw.cameraCount > 1u)
-        clip = mix(clip, cameras.clipFromEye[uint(first) + 1u] * place, at - first);
+        clip = mix(clip, cameras.clipFromRelWorld[uint(first) + 1u] * place, at - first);
     SeenParticle seen;
     seen.clipW = clip.w;
     // Before an orthographic camera that reads instants the two are equal: it does not move.

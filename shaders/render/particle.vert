@@ -51,7 +51,7 @@ vec4 seenColor(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, floa
     vec4 color = particleColor(row, emitter, age);
     float alpha = color.a * fadeNear(frame, seen, particleSize(row, emitter, age));
     // Too small for a pixel's centre to meet it: as bright, spread over more.
-    float shrunk = min(seen.radiusPx / kLeastParticleRadiusPx, 1.0f);
+    float shrunk = min(seen.radiusPx / kMinParticleRadiusPx, 1.0f);
     alpha *= shrunk * shrunk;
     bool adds = (emitter.flags & kParticleAdd) != 0u;
     return vec4(color.rgb * alpha, adds ? 0.0f : alpha);
@@ -102,7 +102,7 @@ uint fillSegments(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, f
         if (first == last) s = first;
         SeenParticle seen = seeParticle(frame, row, emitter, s);
         outPoints[i] = vec4(
-            seen.placePx, max(seen.radiusPx, kLeastParticleRadiusPx), seen.depth
+            seen.placePx, max(seen.radiusPx, kMinParticleRadiusPx), seen.depth
         );
         outColors[i] = seenColor(frame, row, emitter, s, seen);
     }
@@ -161,7 +161,7 @@ void main() {
                       ? open
                       : respondAt(draw.response, 0.5f * (lightBefore(alive.x) + lightBefore(alive.y)));
         SeenParticle seen = seeParticle(frame, row, emitter, s);
-        float radius = max(seen.radiusPx, kLeastParticleRadiusPx);
+        float radius = max(seen.radiusPx, kMinParticleRadiusPx);
         float angle = particleAngle(row, particleAge(row, emitter, s, draw.rasterTime));
         vec2 offset = (2.0f * corner - 1.0f) * radius;
         float c = cos(angle);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Interface between the renderer and its shaders. "Eye space" here has the world's axes and its
-// origin at the camera's position at the raster instant: small numbers wherever the camera is.
+// Interface between the renderer and its shaders. "Camera-relative space" here has the world's axes
+// and its origin at the camera's position at the raster instant: small numbers wherever the camera
+// is.
 #ifndef SHUTTER_SCENE_SHARED_H
 #define SHUTTER_SCENE_SHARED_H
 
@@ -27,14 +28,14 @@ SHUTTER_CONST uint kNoMotion = 0xFFFFFFFFu;
 
 /// One drawn entity at the raster instant; its index in the table is the mesh id.
 struct EntityRow {
-    mat4 clipFromObjectRaster; // with the camera at the raster instant (jittered on request)
-    vec4 eyeFromObject[3];     // rows of the 3x4 matrix
-    uint firstGeometry;        // index into the geometry table
-    float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
-                               // mirrored skeleton, else 1
-    uint motion;               // index into the table of motions, or kNoMotion
-    uint instanceMask;         // bits of its instance that a ray clears to exclude it and no other
-                               // entity (instance_masks.h); 0: it has no unique mask
+    mat4 clipFromObjectRaster;  // with the camera at the raster instant (jittered on request)
+    vec4 relWorldFromObject[3]; // rows of the 3x4 matrix
+    uint firstGeometry;         // index into the geometry table
+    float handedness;  // -1 where the winding is turned round, by relWorldFromObject or by a
+                       // mirrored skeleton, else 1
+    uint motion;       // index into the table of motions, or kNoMotion
+    uint instanceMask; // bits of its instance that a ray clears to exclude it and no other
+                       // entity (instance_masks.h); 0: it has no unique mask
 };
 
 /// Where an entity that moves in the picture, or whose shape changes, is at the exposure's ends.
@@ -96,7 +97,7 @@ SHUTTER_CONST uint kLightPoint = 1u;
 SHUTTER_CONST uint kLightSpot = 2u;
 
 struct LightRow {
-    vec4 positionRange; // xyz eye space, metres; w range in metres, 0: unlimited
+    vec4 positionRange; // xyz camera-relative space, metres; w range in metres, 0: unlimited
     vec4 direction;     // xyz unit, the way the light travels
     vec4 radiance;      // rgb colour times intensity (lux or candela)
     uint kind;          // kLight...
@@ -120,19 +121,19 @@ struct EnvironmentConstants {
 };
 
 struct FrameConstants {
-    mat4 clipFromEye;
-    mat4 eyeFromClip;
-    mat4 clipFromEyeOpen;  // maps points at the raster instant to their place at shutter open, if
-                           // static in the world
-    mat4 clipFromEyeClose; // ... and at shutter close; a direction of the world has w = 0
-    vec4 forward;          // xyz unit view direction; w: the smallest clip w in front of the camera
-    vec4 background;       // linear RGB
-    vec4 ambient;          // uniform radiance from everywhere, linear RGB
-    vec2 sizePx;           // picture's width and height
-    vec2 pixelFootprint;   // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
-    float lodBias;         // added to every texture level of detail, except as below
-    float staticLodBias;   // added instead in the raster where an entity has no motion
-    uint flags;            // kFrame...
+    mat4 clipFromRelWorld;
+    mat4 relWorldFromClip;
+    mat4 clipFromRelWorldOpen; // maps points at the raster instant to their place at shutter open,
+                               // if static in the world
+    mat4 clipFromRelWorldClose; // ... and at shutter close; a direction of the world has w = 0
+    vec4 forward;        // xyz unit view direction; w: the smallest clip w in front of the camera
+    vec4 background;     // linear RGB
+    vec4 ambient;        // uniform radiance from everywhere, linear RGB
+    vec2 sizePx;         // picture's width and height
+    vec2 pixelFootprint; // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
+    float lodBias;       // added to every texture level of detail, except as below
+    float staticLodBias; // added instead in the raster where an entity has no motion
+    uint flags;          // kFrame...
     uint lightCount;
     uint entityCount; // rows of `entities`: no row is read for a mesh id that is not below it
     uvec2 entities;   // addresses of the tables

@@ -10,24 +10,24 @@ struct ShadedHit {
     vec3 color;
     float alpha; // of blended materials, how much they hide, [0, 1]; 1 for all others
     float light; // share of the colour that reaches the viewer, [0, 1]
-    vec3 normal; // eye space, unit, on the viewer's side
-    vec3 eyePosition;
+    vec3 normal; // camera-relative space, unit, on the viewer's side
+    vec3 relWorldPosition;
     vec3 objectPosition;
 };
 
 /// \param direction unit, from the camera
-/// \param eye place of the camera, eye space
+/// \param eye place of the camera, camera-relative space
 ShadedHit shadeHit(
     FrameRef frame, Hit hit, vec3 direction, vec3 eye, LightSet lights, ShadowSource shadows
 ) {
     ShadedHit shaded;
-    shaded.eyePosition = hit.point.eyePosition;
+    shaded.relWorldPosition = hit.point.relWorldPosition;
     shaded.objectPosition = hit.objectPosition;
-    hit.point.eyePosition -= eye; // a texture's level follows the distance from the camera
+    hit.point.relWorldPosition -= eye; // a texture's level follows the distance from the camera
     MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
     Surface surface = evaluateSurface(frame, material, hit.point, direction);
     shaded.color =
-        shadeSurface(frame, material, surface, shaded.eyePosition, direction, lights, shadows);
+        shadeSurface(frame, material, surface, shaded.relWorldPosition, direction, lights, shadows);
     BlendShares shares = blendSharesOf(material.flags, surface.alpha);
     shaded.alpha = shares.opacity;
     shaded.light = shares.light;

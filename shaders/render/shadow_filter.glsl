@@ -9,10 +9,10 @@
 SHUTTER_SHADER_BEGIN
 
 /// Steepest that the filter's edges are made: thin casters and corners suffer from more.
-SHUTTER_CONST float kMostEdgeContrast = 3.0f;
+SHUTTER_CONST float kMaxEdgeContrast = 3.0f;
 
 /// Beyond 87 degrees from the light a plane's slope is worth less than its rounding.
-SHUTTER_CONST float kLeastSlopeCosine = 0.05f;
+SHUTTER_CONST float kMinSlopeCosine = 0.05f;
 
 /// Offset of a point from its surface before the lookup, for errors beyond its plane: curvature,
 /// and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
@@ -31,7 +31,7 @@ SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
 /// \param texelMetres ShadowMap's
 SHUTTER_INLINE vec2
 planeSlope(vec4 clip, vec4 clipNormal, float cosine, float texelMetres, uint sizePx) {
-    if (!(cosine > kLeastSlopeCosine)) return vec2(0.0f);
+    if (!(cosine > kMinSlopeCosine)) return vec2(0.0f);
     float half_ = 0.5f * texelMetres * float(sizePx); // of the map's width, at w = 1
     vec2 across = vec2(clipNormal.x, clipNormal.y);
     // Distance of the plane from the light.
@@ -117,7 +117,7 @@ SHUTTER_INLINE bool meetsSphere(vec3 point, vec3 toLight, float distance_, vec4 
 /// texels are larger than pixels. The middle of a soft edge is where the edge is.
 /// \param texelsPerPixel below 1 where a texel is larger than a pixel
 SHUTTER_INLINE float sharpenEdge(float light, float texelsPerPixel) {
-    float contrast = clamp(1.3333f / max(texelsPerPixel, 1.0e-6f), 1.0f, kMostEdgeContrast);
+    float contrast = clamp(1.3333f / max(texelsPerPixel, 1.0e-6f), 1.0f, kMaxEdgeContrast);
     return clamp((light - 0.5f) * contrast + 0.5f, 0.0f, 1.0f);
 }
 
@@ -148,7 +148,7 @@ SHUTTER_INLINE ShadowPlace placeInCascade(ShadowCascade cascade, vec3 point, vec
     place.texel = findTexel(cascade, lifted);
     place.depth = lifted.z * cascade.depthPerMetre + cascade.depth;
     place.slope = vec2(0.0f);
-    if (normal.z > kLeastSlopeCosine)
+    if (normal.z > kMinSlopeCosine)
         place.slope = vec2(normal.x, normal.y) *
                       (-cascade.depthPerMetre / (cascade.texelsPerMetre * normal.z));
     place.scale = 1.0f;
@@ -157,9 +157,9 @@ SHUTTER_INLINE ShadowPlace placeInCascade(ShadowCascade cascade, vec3 point, vec
 }
 
 /// The slope of a plane's depth in a run's layer, a texel towards x and y; see planeSlope().
-/// \param run ShadowRun::slope
+/// \param run CasterSpan::slope
 SHUTTER_INLINE vec2 planeSlopeOnRun(vec4 run[2], vec3 normal, float cosine) {
-    if (!(cosine > kLeastSlopeCosine)) return vec2(0.0f);
+    if (!(cosine > kMinSlopeCosine)) return vec2(0.0f);
     return vec2(dot(vec3(run[0]), normal), dot(vec3(run[1]), normal)) / cosine;
 }
 

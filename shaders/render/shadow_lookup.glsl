@@ -24,7 +24,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Sh
     ShadowInstant rows[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowRunTable {
-    ShadowRun rows[];
+    CasterSpan rows[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTexels {
     float values[];
@@ -43,7 +43,7 @@ const uint kAllMovers = ~0u;
 
 /// The point that receives light.
 struct Receiver {
-    vec3 position;  // eye space, metres
+    vec3 position;  // camera-relative space, metres
     vec3 normal;    // unit, of the triangle, on the light's side
     vec3 toLight;   // unit
     float distance_; // to the light, metres
@@ -107,11 +107,11 @@ float filterMapLinear(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPla
 /// Where the receiver is in the map of a light at a place, lifted off its surface.
 /// \param cosine of the angle between its normal and the way to the light
 ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosine) {
-    vec4 clip = map.clipFromEye * vec4(position, 1.0f);
+    vec4 clip = map.clipFromRelWorld * vec4(position, 1.0f);
     // A map that does not have the place needs nothing else worked out.
     ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx);
     if (!place.isCovered) return place;
-    vec4 clipNormal = map.clipFromEye * vec4(normal, 0.0f);
+    vec4 clipNormal = map.clipFromRelWorld * vec4(normal, 0.0f);
     vec2 slope = planeSlope(clip, clipNormal, cosine, map.texelMetres, map.sizePx);
     clip += clipNormal * normalOffset(map.texelMetres * clip.w, cosine);
     return placeInMap(clip, slope, map.sizePx);
@@ -199,7 +199,7 @@ struct RunPlace {
 };
 
 RunPlace placeOnRun(ShadowRef shadows, uint index, Receiver receiver) {
-    ShadowRun run = ShadowRunTable(shadows.value.runs).rows[index];
+    CasterSpan run = ShadowRunTable(shadows.value.runs).rows[index];
     float cosine = dot(receiver.normal, receiver.toLight);
     vec3 lifted = receiver.position + receiver.normal * normalOffset(run.texelMetres, cosine);
     vec3 first = transformPoint(run.first, lifted);

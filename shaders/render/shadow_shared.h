@@ -15,7 +15,7 @@ SHUTTER_CONST uint kMaxShadowLights = 16u;
 SHUTTER_CONST uint kNoShadowMap = 0xFFFFFFFFu;
 /// ShadowLight::firstRun of a light that is not far away.
 SHUTTER_CONST uint kNoShadowRun = 0xFFFFFFFFu;
-/// Most instants of a ShadowRun.
+/// Most instants of a CasterSpan.
 SHUTTER_CONST uint kMaxRunInstants = 4u;
 /// Texels to each side of a lookup's own that its filter may read.
 SHUTTER_CONST float kShadowFilterTexels = 1.5f;
@@ -28,17 +28,17 @@ SHUTTER_INLINE uint shadowRowTexels(uint sizePx) {
 
 /// One view of a light at a place. Depth is near / distance: 0 where there is no caster.
 struct ShadowMap {
-    mat4 clipFromEye;  // x, y in [-1, 1] over the map
-    uint firstTexel;   // in ShadowConstants::texels; rows of shadowRowTexels(), top row first
-    uint sizePx;       // width and height
-    float texelMetres; // width of a texel, metres: at clip w = 1
+    mat4 clipFromRelWorld; // x, y in [-1, 1] over the map
+    uint firstTexel;       // in ShadowConstants::texels; rows of shadowRowTexels(), top row first
+    uint sizePx;           // width and height
+    float texelMetres;     // width of a texel, metres: at clip w = 1
     uint padding0;
 };
 
 /// One view of a light that is far away: where the light's axes (ShadowLight::axes) lie in it.
 /// Depth is linear and reversed: 1 nearest the light, 0 where there is no caster.
 struct ShadowCascade {
-    vec2 corner; // x and y of the origin of eye space, texels
+    vec2 corner; // x and y of the origin of camera-relative space, texels
     float texelsPerMetre;
     float depthPerMetre; // towards the light
     float depth;         // of the origin, with its bias
@@ -61,12 +61,13 @@ struct ShadowLight {
     uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
     uint firstLayer; // map of the first mover's first layer; the others follow
     uint firstRun;   // of the first mover's runs, or kNoShadowRun: the light has a place
-    vec4 axes[3];    // xyz of a light that is far away: right, up and towards it, unit, eye space
+    vec4 axes[3];    // xyz of a light that is far away: right, up and towards it, unit,
+                     // camera-relative space
 };
 
 /// A moving caster with separate layers for each light: maps of it alone.
 struct ShadowMover {
-    vec4 sphere;       // xyz eye space, w radius, metres: at the raster instant
+    vec4 sphere;       // xyz camera-relative space, w radius, metres: at the raster instant
     vec4 sweptSphere;  // the same over the whole exposure
     vec4 shape[3];     // rows of the form whose unit ellipsoid is the mover's box: alignPointRay()
     uint entity;       // row of the entity table
@@ -82,15 +83,15 @@ struct ShadowMover {
     uint padding0;
 };
 
-/// Where a mover is at one instant: takes points of eye space to where they are as seen from the
-/// mover at the raster instant. Rows of a 3x4 matrix.
+/// Where a mover is at one instant: takes points of camera-relative space to where they are as seen
+/// from the mover at the raster instant. Rows of a 3x4 matrix.
 struct ShadowInstant {
     vec4 rasterFromInstant[3];
 };
 
-/// Mapping from eye space into a mover's layer at successive instants, for a directional light: an
-/// affine map per instant, linear in the instant's number.
-struct ShadowRun {
+/// Mapping from camera-relative space into a mover's layer at successive instants, for a
+/// directional light: an affine map per instant, linear in the instant's number.
+struct CasterSpan {
     vec4 first[3]; // rows of the first instant's: x and y in texels, depth with its bias
     vec4 step[3];  // added by each further instant
     vec4 slope[2]; // xyz: times a unit normal, over its cosine with the way to the light, it is the
@@ -108,7 +109,7 @@ struct ShadowConstants {
     uvec2 cascades; // of ShadowCascade[], too: the light's kind selects which of the two is read
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
-    uvec2 runs;     // of ShadowRun[]
+    uvec2 runs;     // of CasterSpan[]
     uvec2 tiles;    // of uint[], a tile of the raster each: see moversOfTile()
     uint lightCount;
     uint moverCount;
@@ -134,7 +135,7 @@ static_assert(sizeof(shutter::shader::ShadowCascade) == 32);
 static_assert(sizeof(shutter::shader::ShadowLight) == 64);
 static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
-static_assert(sizeof(shutter::shader::ShadowRun) == 144);
+static_assert(sizeof(shutter::shader::CasterSpan) == 144);
 static_assert(sizeof(shutter::shader::ShadowConstants) == 80);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
 #endif

@@ -9,8 +9,8 @@
 /// Camera rotation moves the sky too: where the direction was seen at open and at close.
 /// \param screenPx the pixel's centre
 vec2 skyMotion(FrameRef frame, vec2 screenPx, vec3 direction) {
-    vec4 open = frame.value.clipFromEyeOpen * vec4(direction, 0.0f);
-    vec4 close = frame.value.clipFromEyeClose * vec4(direction, 0.0f);
+    vec4 open = frame.value.clipFromRelWorldOpen * vec4(direction, 0.0f);
+    vec4 close = frame.value.clipFromRelWorldClose * vec4(direction, 0.0f);
     vec2 ndc = screenPx / frame.value.sizePx * 2.0f - 1.0f;
     // An orthographic camera sees one direction only: its sky does not move.
     if (frame.value.pixelFootprint.y > 0.0f) return vec2(0.0f);

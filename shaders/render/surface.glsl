@@ -13,10 +13,10 @@
 
 /// A point on a triangle as raster interpolates it or a ray finds it. Directions need not be unit.
 struct SurfacePoint {
-    vec3 eyePosition;     // eye space, metres
-    vec3 geometricNormal; // eye space
-    vec3 normal;          // eye space
-    vec4 tangent;         // eye space, w handedness
+    vec3 relWorldPosition;     // camera-relative space, metres
+    vec3 geometricNormal; // camera-relative space
+    vec3 normal;          // camera-relative space
+    vec4 tangent;         // camera-relative space, w handedness
     vec2 uv[2];
     float uvDensity[2];   // area in texture coordinates per square metre
     vec4 color;
@@ -25,7 +25,7 @@ struct SurfacePoint {
 struct Surface {
     vec3 baseColor;
     float alpha;
-    vec3 normal; // eye space, unit, on the viewer's side
+    vec3 normal; // camera-relative space, unit, on the viewer's side
     vec3 geometricNormal; // of the triangle: likewise
     float metallic;
     float roughness;
@@ -59,15 +59,15 @@ vec4 sampleRef(FrameRef frame, TextureRef ref, SurfacePoint point, float footpri
 }
 
 /// Width of a pixel at the point, metres.
-float pixelFootprint(FrameRef frame, vec3 eyePosition) {
+float pixelFootprint(FrameRef frame, vec3 relWorldPosition) {
     vec2 footprint = frame.value.pixelFootprint;
-    return footprint.x * length(eyePosition) + footprint.y;
+    return footprint.x * length(relWorldPosition) + footprint.y;
 }
 
 /// Unit direction in which the camera sees the point.
-vec3 viewDirectionTo(FrameRef frame, vec3 eyePosition) {
+vec3 viewDirectionTo(FrameRef frame, vec3 relWorldPosition) {
     bool orthographic = frame.value.pixelFootprint.y > 0.0f;
-    return orthographic ? frame.value.forward.xyz : normalize(eyePosition);
+    return orthographic ? frame.value.forward.xyz : normalize(relWorldPosition);
 }
 
 vec4 evaluateBaseColor(
@@ -86,7 +86,7 @@ float viewCosine(SurfacePoint point, vec3 viewDirection) {
 
 /// Alpha test of raster and rays.
 bool isCovered(FrameRef frame, MaterialRow material, SurfacePoint point, vec3 viewDirection) {
-    float footprint = pixelFootprint(frame, point.eyePosition);
+    float footprint = pixelFootprint(frame, point.relWorldPosition);
     vec4 color =
         evaluateBaseColor(frame, material, point, footprint, viewCosine(point, viewDirection));
     return color.a >= material.emissiveCutoff.a;
@@ -101,7 +101,7 @@ vec3 safeNormalize(vec3 v, vec3 fallback) {
 Surface evaluateSurface(
     FrameRef frame, MaterialRow material, SurfacePoint point, vec3 viewDirection
 ) {
-    float footprint = pixelFootprint(frame, point.eyePosition);
+    float footprint = pixelFootprint(frame, point.relWorldPosition);
     float cosine = viewCosine(point, viewDirection);
     vec4 color = evaluateBaseColor(frame, material, point, footprint, cosine);
 

@@ -56,9 +56,9 @@ Placement placeAt(TimedRef moving, uint entity, float s) {
     TimedTable table = TimedTable(moving.value.rows);
     Placement placement;
     placement.firstGeometry = table.rows[entity].firstGeometry;
-    interpolate(table.rows[entity].keys, table.rows[entity].keyCount, s, placement.eyeFromObject);
+    interpolate(table.rows[entity].keys, table.rows[entity].keyCount, s, placement.relWorldFromObject);
     placement.handedness = table.rows[entity].handedness;
-    if (determinantOf(placement.eyeFromObject) < 0.0f) placement.handedness *= -1.0f;
+    if (determinantOf(placement.relWorldFromObject) < 0.0f) placement.handedness *= -1.0f;
     uint deformationKeyCount = table.rows[entity].deformationKeyCount;
     placement.deforms = deformationKeyCount > 1u;
     findKeys(deformationKeyCount, s, placement.firstKey, placement.keyBlend);
@@ -84,9 +84,9 @@ LightSet lightsAt(TimedRef moving, float s) {
 }
 
 struct ShutterRay {
-    vec3 origin;    // eye space, on the near plane
+    vec3 origin;    // camera-relative space, on the near plane
     vec3 direction; // unit
-    vec3 eye;       // place of the camera, eye space
+    vec3 eye;       // place of the camera, camera-relative space
     vec3 forward;   // of the view, unit
 };
 

@@ -15,7 +15,7 @@ struct MotionKey {
 
 /// Parallel to the rows of the entity table.
 struct TimedRow {
-    uvec2 keys;         // address of MotionKey[]: eyeFromObject
+    uvec2 keys;         // address of MotionKey[]: relWorldFromObject
     uint keyCount;      // 1: it is static; else uniform over s, both ends included
     uint firstGeometry; // as EntityRow's
     uvec2 meshScene;    // address of the mesh's own top level, object space; 0 where it is static
@@ -38,9 +38,9 @@ struct TimedConstants {
                       // perspective, 0 not
     uvec2 rows;       // address of TimedRow[]
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
-    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView; rigid but for x and y, which a lens
-                      // that zooms scales by how much wider it sees than at the raster instant
-    uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
+    uvec2 cameraKeys; // address of MotionKey[]: relWorldFromView; rigid but for x and y, which a
+                      // lens that zooms scales by how much wider it sees than at the raster instant
+    uvec2 lights; // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;
     uint lightCount;

@@ -10,7 +10,7 @@
 /// A ray query in the moving scene.
 struct TimedQuery {
     float s;   // shutter time
-    vec3 eye;  // place of the camera, eye space
+    vec3 eye;  // place of the camera, camera-relative space
     uint mask; // kSolidMask, kBlendedMask or both
     float tMin;
     float tMax;
@@ -29,7 +29,7 @@ struct ObjectRay {
 };
 
 ObjectRay makeObjectRay(Placement placement, vec3 origin, vec3 direction) {
-    vec4 rows[3] = placement.eyeFromObject;
+    vec4 rows[3] = placement.relWorldFromObject;
     // Columns of the inverse are cross products of the rows over the determinant.
     vec3 c0 = cross(rows[1].xyz, rows[2].xyz);
     vec3 c1 = cross(rows[2].xyz, rows[0].xyz);

@@ -32,7 +32,7 @@ bool isInLayer(FrameRef frame, uint entity) {
 /// Whether raster would have drawn the candidate there: back faces of single-sided materials and
 /// transparent parts of masked ones are passed.
 /// \param direction unit, from the camera
-/// \param eye place of the camera, eye space
+/// \param eye place of the camera, camera-relative space
 bool isDrawn(
     FrameRef frame, Placement placement, HitId id, bool frontFace, vec3 direction, vec3 eye,
     uint mask
@@ -47,7 +47,7 @@ bool isDrawn(
     if ((flags & kMaterialDoubleSided) == 0u && !frontFace) return false;
     if ((flags & kMaterialMask) == 0u) return true;
     Hit hit = fetchHit(frame, placement, id);
-    hit.point.eyePosition -= eye;
+    hit.point.relWorldPosition -= eye;
     return isCovered(frame, materials.rows[index], hit.point, direction);
 }
 

@@ -16,7 +16,7 @@ constexpr int kUsage = 2;
 
 } // namespace
 
-TEST_F(Cli, WithoutASubcommandItIsWrongUsage) {
+TEST_F(Cli, AMissingSubcommandIsWrongUsage) {
     expectRefusal({}, kUsage, {"subcommand"});
     expectRefusal({"nosuch"}, kUsage, {"subcommand"});
 }
@@ -77,7 +77,7 @@ TEST_F(Cli, ANameThatIsNoneOfAListIsRefused) {
         );
 }
 
-TEST_F(Cli, WhatIsNoNumberIsRefused) {
+TEST_F(Cli, ANonNumericValueIsRefused) {
     for (const char* option :
          {"--time",
           "--fps",

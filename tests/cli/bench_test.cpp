@@ -61,7 +61,7 @@ class BenchCommand : public Cli {
 
 } // namespace
 
-TEST_F(BenchCommand, NeedsASuiteOrASceneAndNotBoth) {
+TEST_F(BenchCommand, ASuiteOrASceneIsRequiredAndNotBoth) {
     expectRefusal({"bench", "--out", path("x")}, 2, {"--suite", "SCENE"});
     expectRefusal(
         {"bench", "a.glb", "--suite", "paper", "--out", path("x")}, 2, {"--suite", "SCENE"}
@@ -125,7 +125,7 @@ TEST_F(BenchCommand, ASuiteHasShotsOfItsOwn) {
     );
 }
 
-TEST_F(BenchCommand, MeasuresEveryMethodAndSampleCountAndMakesThePage) {
+TEST_F(BenchCommand, EveryMethodAndSampleCountIsMeasuredAndThePageIsMade) {
     requireDevice();
     if (IsSkipped())
         return;
@@ -152,7 +152,7 @@ TEST_F(BenchCommand, MeasuresEveryMethodAndSampleCountAndMakesThePage) {
     EXPECT_NE(page.find("</html>"), std::string::npos);
 }
 
-TEST_F(BenchCommand, JudgesFlightsAndDemosInTime) {
+TEST_F(BenchCommand, FlightsAndDemosAreJudgedOverTime) {
     requireDevice();
     if (IsSkipped())
         return;
@@ -187,7 +187,7 @@ TEST_F(BenchCommand, JudgesFlightsAndDemosInTime) {
     EXPECT_NE(readFile("report/index.html").find("</html>"), std::string::npos);
 }
 
-TEST_F(BenchCommand, ASequenceGoesOnWhereItWasStopped) {
+TEST_F(BenchCommand, AStoppedSequenceResumes) {
     requireDevice();
     if (IsSkipped())
         return;
@@ -228,7 +228,7 @@ TEST_F(BenchCommand, ASequenceGoesOnWhereItWasStopped) {
     EXPECT_NE(readFile(film), twelve) << "the film of other frames is left";
 }
 
-TEST_F(BenchCommand, GoesOnWhereItWasStopped) {
+TEST_F(BenchCommand, AStoppedRunResumes) {
     requireDevice();
     if (IsSkipped())
         return;

@@ -148,10 +148,10 @@ TEST_F(CliCompare, ChannelsBesideTheColourAreComparedOrTold) {
     EXPECT_EQ(json.at("max_difference"), 0.0);
     EXPECT_EQ(json.at("other_channels"), nlohmann::json({{"Z", 6.5}, {"motion.x", 0.0}}));
     EXPECT_EQ(json.at("notes"), nlohmann::json::array());
-    const auto told = compareAsJson({"a.exr", "plain.exr"});
-    EXPECT_EQ(told.at("equal"), true) << "of what both have";
+    const auto reported = compareAsJson({"a.exr", "plain.exr"});
+    EXPECT_EQ(reported.at("equal"), true) << "of what both have";
     EXPECT_EQ(
-        told.at("notes"),
+        reported.at("notes"),
         nlohmann::json::array({"only 'a.exr' has Z, motion.x, which are left out"})
     );
     const std::string text = expectSuccess({"compare", "plain.exr", "a.exr"}).out;
@@ -239,8 +239,8 @@ TEST_F(CliCompare, CropsOfOtherPlacesAreNotOnePicture) {
         json.at("notes").at(0),
         "of the display windows, 32x16, the pixels 0,0 to 15,15 are there and compared"
     );
-    writeInDisplay("beside.exr", {16, 0, 31, 15});
-    expectRefusal({"compare", "beside.exr", "beside.exr"}, kFailed, {"no pixels in its display"});
+    writeInDisplay("shifted.exr", {16, 0, 31, 15});
+    expectRefusal({"compare", "shifted.exr", "shifted.exr"}, kFailed, {"no pixels in its display"});
 }
 
 TEST_F(CliCompare, PixelsAroundTheDisplayWindowAreLeftOutAndTold) {
@@ -366,7 +366,7 @@ TEST_F(CliCompare, ADisplayPictureIsNotToneMapped) {
     );
 }
 
-TEST_F(CliCompare, WhatIsNoColourIsComparedAsStoredOrNotAtAll) {
+TEST_F(CliCompare, NonColourChannelsAreComparedAsStoredOrNotAtAll) {
     writePicture("motion.exr", 16, 2, 3.0f, {"motion.x", "motion.y"});
     writePicture("normal.exr", 16, 3, 0.5f, {"N.x", "N.y", "N.z"});
     writePicture("depth.exr", 16, 1, 7.0f, {"Z"});

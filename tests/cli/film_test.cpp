@@ -93,7 +93,7 @@ class Film : public Cli {
 
 } // namespace
 
-TEST_F(Film, ByPartsIsTheFilmOfOneProcess) {
+TEST_F(Film, AFilmDrawnInPartsEqualsThatOfOneProcess) {
     if (std::system("command -v ffmpeg > /dev/null") != 0) // NOLINT(concurrency-mt-unsafe)
         GTEST_SKIP() << "ffmpeg is not installed";
     expectSuccess(draw("render", "one.mp4", {"--keep-frames"}));

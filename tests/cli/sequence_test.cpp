@@ -218,7 +218,7 @@ TEST_F(Sequence, AFlythroughRenderedTwiceIsTheSameAndTheSecondTimeInOneFolderSki
     EXPECT_NE(readFile("s.json").find("\"time_s\": 0.75"), std::string::npos);
 }
 
-TEST_F(Sequence, OtherOptionsDrawAllAnewAndSaySo) {
+TEST_F(Sequence, ChangedOptionsRedrawAllFramesWithAMessage) {
     expectSuccess(fly({"--frames", "0:1", "--out", "f_%04d.png"}));
     const std::string first = readFile("f_0001.png");
     // More frames of the same film: those there are kept.
@@ -258,7 +258,7 @@ TEST_F(Sequence, ACameraMadeToFitFitsWhenItIsTold) {
     EXPECT_TRUE(readFile("f_2.png") == readFile("other.png"));
 }
 
-TEST_F(Sequence, KilledInTheMiddleAndStartedAgainItLeavesTheSameFiles) {
+TEST_F(Sequence, AKilledAndRestartedRunLeavesTheSameFiles) {
     fs::create_directory(path("whole"));
     expectSuccess(fly({"--out", "whole/f_%04d.png"}));
     const auto whole = readFrames("whole");
@@ -379,7 +379,7 @@ TEST_F(Sequence, PicturesOfExrCarryTheTimeCodesOfTheirFrames) {
     EXPECT_EQ(readCode("f_3.exr"), std::string("\0\x58\x34\x12", 4));
     // A sequence with another time code is another: nothing of this one is taken for complete.
     const auto again = expectSuccess(fly({"--out", "f_%d.exr", "--timecode", "00:00:00:00"}));
-    EXPECT_NE(again.out.find("all are drawn anew"), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("all are drawn again"), std::string::npos) << again.out;
     EXPECT_EQ(readCode("f_-2.exr"), std::string(4, '\0'));
     const Outcome fast = run(fly({"--out", "g_%d.exr", "--timecode", "frame"}));
     EXPECT_EQ(fast.status, 1);
@@ -538,7 +538,7 @@ TEST_F(Sequence, ContradictionsAreRefusedBeforeAnythingIsWritten) {
     refuse({"--out", "f_%d.png"}, {"--flythrough: flight.json:2: keys: must be an array"}, 1);
 }
 
-TEST_F(Sequence, WithoutFfmpegThePackageAndTheOptionAreNamed) {
+TEST_F(Sequence, AMissingFfmpegErrorNamesThePackageAndTheOption) {
     const char* path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
     const std::string before = path ? path : "";
     setenv("PATH", "/nowhere", 1); // NOLINT(concurrency-mt-unsafe)

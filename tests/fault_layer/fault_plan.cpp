@@ -159,7 +159,7 @@ const FaultPlan& FaultPlan::get() {
     return sPlan;
 }
 
-void FaultPlan::readAnew() {
+void FaultPlan::reread() {
     sPlan = readPlan();
 }
 

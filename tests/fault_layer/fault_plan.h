@@ -47,11 +47,11 @@ struct FaultPlan {
         return failing != creations.end() && failing->second.holds(number);
     }
 
-    /// What readAnew() read last.
+    /// What reread() read last.
     [[nodiscard]] static const FaultPlan& get();
 
     /// For a new instance. Invalid values end the process: a test without faults would pass.
-    static void readAnew();
+    static void reread();
 };
 
 /// Prints a sentence and ends the process.

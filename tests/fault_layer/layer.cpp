@@ -21,7 +21,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     const PFN_vkGetInstanceProcAddr getProcAddr = test::takeLink(*info);
     if (!getProcAddr)
         return VK_ERROR_INITIALIZATION_FAILED;
-    FaultPlan::readAnew();
+    FaultPlan::reread();
     if (FaultPlan::get().failsCreation("CreateInstance", ++sInstanceCount))
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     const auto create =

@@ -30,8 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         return 0;
     }
     // Wider ones take longer, by the same code.
-    constexpr uint32_t kMostFuzzed = 16;
-    if (read.value().width > kMostFuzzed)
+    constexpr uint32_t kMaxFuzzed = 16;
+    if (read.value().width > kMaxFuzzed)
         return 0;
     for (const double intensity : {0.0, 1000.0}) {
         const auto made = environment::makeEnvironment(read.value(), {.intensity = intensity});

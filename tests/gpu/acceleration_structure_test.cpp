@@ -90,7 +90,7 @@ Triangles makeTriangle(gpu::Device& device) {
     return makeTriangles(device, {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
 }
 
-TEST_F(AccelerationStructure, WithoutTrianglesThereIsNone) {
+TEST_F(AccelerationStructure, AMeshWithoutTrianglesHasNoStructure) {
     EXPECT_TRUE(gpu::buildBlas(device(), {}).empty());
     EXPECT_TRUE(gpu::buildTlas(device(), {}).empty());
     Triangles none = makeTriangle(device());
@@ -180,7 +180,7 @@ TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
     EXPECT_EQ(top.structure().handle(), large);
 }
 
-TEST_F(AccelerationStructure, OneTopLevelAnInstance) {
+TEST_F(AccelerationStructure, ATlasIsBuiltPerInstance) {
     const Triangles one = makeTriangle(device());
     const auto structures = gpu::buildBlas(device(), Meshes{{one.geometry}});
     const auto tops = gpu::buildTlas(device(), std::vector(3, makeInstance(structures.at(0))));
@@ -218,7 +218,7 @@ TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
     EXPECT_EQ(levels.count(), 0u);
 }
 
-TEST_F(AccelerationStructure, ASetOfTopLevelsHasOneAnInstance) {
+TEST_F(AccelerationStructure, ASetOfTlasesHasOnePerInstance) {
     const std::vector<gpu::BoxGeometry> geometry(3, {{-1, -1, -1}, {1, 1, 1}});
     gpu::Buffer boxes(
         device(),

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "motion_blur/own_samples_shared.h"
+#include "motion_blur/host_samples_shared.h"
 #include "render/distributed_ray.glsl"
 
 layout(local_size_x = 64) in;

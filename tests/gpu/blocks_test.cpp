@@ -10,7 +10,7 @@
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/ray_mask.h"
-#include "modules/motion_blur/passes/still_pixels.h"
+#include "modules/motion_blur/passes/static_pixels.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "shaders/motion_blur/block_class.glsl"
 #include "shaders/motion_blur/hybrid_shared.h"
@@ -63,7 +63,7 @@ Sorted sortBlocks(
     test::GraphRig rig(device);
     const motion_blur::TileMotion tileMotion(device);
     motion_blur::BlockSorter sorter(device);
-    const motion_blur::StillPixels still(device);
+    const motion_blur::StaticPixels still(device);
     const motion_blur::BlockFilter copies[] = {
         {device, shader::kUniformList, {"copy uniform", motion_blur_copy_blocks_comp, 1}},
         {device, shader::kMixedList, {"copy mixed", motion_blur_copy_blocks_comp, 1}},
@@ -76,7 +76,7 @@ Sorted sortBlocks(
     std::array<size_t, 3> tickets{};
     for (size_t i = 0; i < tickets.size(); ++i) {
         const auto target =
-            still.begin(rig.graph, poison, {}, motion_blur::StillPixelsBy::WholeCopy);
+            still.begin(rig.graph, poison, {}, motion_blur::StaticPixelsBy::WholeCopy);
         tickets[i] = rig.want(copies[i].add(
             rig.graph, std::array{ones}, i == 2 ? blocks.candidates : blocks.lists, target, params
         ));
@@ -201,7 +201,7 @@ TEST_F(BlockLists, EveryBlockIsInTheListThatItsTilesAskFor) {
         }
 }
 
-TEST_F(BlockLists, WithoutAMaskAllThatIsNotUniformIsMixed) {
+TEST_F(BlockLists, NonUniformBlocksAreMixedWithoutAMask) {
     MotionBlurSettings settings;
     settings.tileSizePx = 16;
     const Image motion = makeThirds(250, 90);
@@ -265,7 +265,7 @@ class Effect {
         motion_blur::MotionBlurInputs inputs;
         // A transient: its usage follows from the passes.
         inputs.color = mStill.begin(
-            rig.graph, rig.uploadColor(color), {}, motion_blur::StillPixelsBy::WholeCopy
+            rig.graph, rig.uploadColor(color), {}, motion_blur::StaticPixelsBy::WholeCopy
         );
         inputs.motionDepth = rig.upload(motion);
         inputs.colorIsWritable = writable;
@@ -290,7 +290,7 @@ class Effect {
   private:
     gpu::Device& mDevice;
     motion_blur::MotionBlur mEffect;
-    motion_blur::StillPixels mStill;
+    motion_blur::StaticPixels mStill;
 };
 
 /// Those whose filters go over blocks and need no rays.
@@ -310,7 +310,7 @@ Image makeMover(uint32_t width, uint32_t height) {
     });
 }
 
-TEST_F(BlockFilters, WhereLittleMovesThePictureIsTheSameAndStillBlocksAreNotTouched) {
+TEST_F(BlockFilters, FewMovingBlocksGiveTheSamePictureAndStaticBlocksAreNotTouched) {
     const Image color = makeNoise(240, 96);
     const Image motion = makeMover(240, 96);
     MotionBlurSettings settings;
@@ -337,13 +337,13 @@ TEST_F(BlockFilters, WhereLittleMovesThePictureIsTheSameAndStillBlocksAreNotTouc
     }
 }
 
-TEST(StillPixels, TheChoiceHasSlack) {
-    using motion_blur::chooseStillPixels;
-    using By = motion_blur::StillPixelsBy;
+TEST(StaticPixels, TheChoiceHasSlack) {
+    using motion_blur::chooseStaticPixels;
+    using By = motion_blur::StaticPixelsBy;
     for (const By last : {By::WholeCopy, By::CopyBack}) {
-        EXPECT_EQ(chooseStillPixels(0.0, last), By::CopyBack);
-        EXPECT_EQ(chooseStillPixels(0.25, last), last);
-        EXPECT_EQ(chooseStillPixels(1.0, last), By::WholeCopy);
+        EXPECT_EQ(chooseStaticPixels(0.0, last), By::CopyBack);
+        EXPECT_EQ(chooseStaticPixels(0.25, last), last);
+        EXPECT_EQ(chooseStaticPixels(1.0, last), By::WholeCopy);
     }
 }
 
@@ -401,7 +401,7 @@ TEST_F(BlockFilters, OverDepthStepsThatMoveAlikeTheUniformPathIsNearerToTheTruth
     EXPECT_LT(fast, 0.5 * full);
 }
 
-TEST_F(BlockFilters, WhatLiesBeyondTheDepthLimitCountsAsStill) {
+TEST_F(BlockFilters, SurfacesBeyondTheDepthLimitCountAsStatic) {
     const Image color = makeNoise(96, 64);
     const auto make = [](bool nearOnly) {
         return makeMotion(96, 64, [&](uint32_t x, uint32_t y) {

@@ -63,14 +63,14 @@ class CInterface : public test::EmbeddedTest {
 
 TEST_F(CInterface, OlderStructuresAreTaken) {
     const test::BlurOfC c(device());
-    const test::InputsForC told(mHost->inputs());
-    ShutterBlurInputs inputs = told.inputs;
+    const test::InputsForC reported(mHost->inputs());
+    ShutterBlurInputs inputs = reported.inputs;
     // A header that ended before the fields of "resolved".
     inputs.structBytes = offsetof(ShutterBlurInputs, entityId);
     inputs.keyCount = 77; // behind its end
     record(c, inputs);
     // One that ended before the response, with rubbish in its padding and behind it.
-    inputs = told.inputs;
+    inputs = reported.inputs;
     inputs.structBytes = offsetof(ShutterBlurInputs, responsePoints);
     constexpr size_t kEnd = offsetof(ShutterBlurInputs, showsInputs) + sizeof(VkBool32);
     static_assert(kEnd < offsetof(ShutterBlurInputs, responsePoints), "there was padding");
@@ -103,12 +103,12 @@ TEST_F(CInterface, EachPresetRunsAndOffIsACopy) {
     given.motion.rowCount = 1;
     given.reveal.record = [](const motion_blur::RevealTask&) {};
     given.samples.record = [](const motion_blur::SampleTask&) {};
-    const test::InputsForC told(given);
+    const test::InputsForC reported(given);
     for (const motion_blur::Preset& preset : motion_blur::listPresets()) {
         SCOPED_TRACE(preset.name);
         ShutterBlurSettings settings = shutterBlurDefaultSettings();
         settings.preset = preset.name;
-        record(c, told.inputs, &settings, &output);
+        record(c, reported.inputs, &settings, &output);
         ShutterBlurReport report = shutterBlurDefaultReport();
         ASSERT_EQ(shutterBlurGetReport(c.blur, 0, &report), SHUTTER_BLUR_SUCCESS)
             << shutterBlurGetMessage();
@@ -120,7 +120,7 @@ TEST_F(CInterface, EachPresetRunsAndOffIsACopy) {
     }
 }
 
-TEST_F(CInterface, WhatIsPreparedAheadIsToldAndDone) {
+TEST_F(CInterface, PreparationAheadOfFramesSucceedsAndIsReported) {
     const ShutterBlurDevice described = describeMeasuring();
     const test::BlurOfC c(described);
     ShutterBlurPlan plan = shutterBlurDefaultPlan();
@@ -197,7 +197,7 @@ TEST_F(CInterface, TheCppObjectRecordsAPlanThatItWarmedUpFor) {
     EXPECT_FALSE(MotionBlur::estimateMemory(described, plan));
 }
 
-TEST(CppStructures, BeginWithTheDefaultsOfCAndPointToWhatTheyAreGiven) {
+TEST(CppStructures, CppStructuresHaveTheDefaultsOfCAndReferenceTheirArguments) {
     const BlurInputs inputs(3, 2);
     const ShutterBlurInputs inC = shutterBlurDefaultInputs();
     EXPECT_EQ(inputs.structBytes, sizeof(ShutterBlurInputs));
@@ -225,12 +225,12 @@ TEST(CppStructures, BeginWithTheDefaultsOfCAndPointToWhatTheyAreGiven) {
     given.recordReveal(given.revealUser, &revealTask);
     given.recordSamples(given.samplesUser, &sampleTask);
     EXPECT_EQ(asked, 75u);
-    std::string told;
-    const auto message = [&](const char* sentence) { told = sentence; };
+    std::string reported;
+    const auto message = [&](const char* sentence) { reported = sentence; };
     BlurDevice described;
     described.setMessage(message);
     described.message(described.messageUser, "said");
-    EXPECT_EQ(told, "said");
+    EXPECT_EQ(reported, "said");
     const BlurImage image(VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL, {}, VK_FORMAT_R8_UINT);
     EXPECT_EQ(image.before.layout, VK_IMAGE_LAYOUT_GENERAL);
     EXPECT_TRUE(image.after.stages == 0 && image.extent.width == 0 && image.samples == 0);
@@ -257,7 +257,7 @@ TEST(CppStructures, BeginWithTheDefaultsOfCAndPointToWhatTheyAreGiven) {
         EXPECT_EQ(given.cameras.viewFromWorld[i], i + 1.0);
 }
 
-TEST(CInterfaceVersion, IsThatOfTheHeader) {
+TEST(CInterfaceVersion, LibraryVersionIsThatOfTheHeader) {
     EXPECT_EQ(shutterBlurGetVersion(), SHUTTER_BLUR_VERSION);
     EXPECT_TRUE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION));
     EXPECT_FALSE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION + 1)) << "a newer patch";
@@ -271,7 +271,7 @@ TEST(CInterfaceVersion, IsThatOfTheHeader) {
     );
 }
 
-TEST(CInterfaceMethods, AreThoseThatAHostCanRun) {
+TEST(CInterfaceMethods, ListedMethodsAreThoseThatAHostCanRun) {
     std::set<std::string> names;
     for (uint32_t i = 0; shutterBlurGetMethod(i); ++i)
         names.insert(shutterBlurGetMethod(i));
@@ -280,7 +280,7 @@ TEST(CInterfaceMethods, AreThoseThatAHostCanRun) {
     EXPECT_FALSE(names.contains("denoised"));
 }
 
-TEST(CInterfaceFeatures, AreAddedToAHostsOwnChain) {
+TEST(CInterfaceFeatures, RequiredFeaturesAreAddedToTheHostsChain) {
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     v13.dynamicRendering = VK_TRUE;
     VkPhysicalDeviceVulkan12Features v12{

@@ -52,7 +52,7 @@ std::string makeKeys(const char* first, const char* second, const char* third) {
 
 /// A place next to the start of the rally's course.
 /// \param along, right, up metres
-math::dvec3 besideTheRoad(double along, double right, double up) {
+math::dvec3 offTheRoad(double along, double right, double up) {
     const generator::CoursePoint start = generator::findCoursePoint(0.0f);
     const dvec2 ahead(start.direction);
     const dvec2 at = dvec2(start.place) + along * ahead + right * dvec2(-ahead.y, ahead.x);
@@ -67,7 +67,7 @@ void driveCar(scene::World& world) {
         if (name.value != "car")
             continue;
         car = entity;
-        place.transform.translation = besideTheRoad(0.0, 0.0, 0.0);
+        place.transform.translation = offTheRoad(0.0, 0.0, 0.0);
         place.transform.rotation =
             glm::angleAxis(std::atan2(-ahead.x, -ahead.y), math::dvec3(0.0, 1.0, 0.0));
     }
@@ -78,8 +78,8 @@ void driveCar(scene::World& world) {
 std::string makeRallyKeys() {
     // It speeds up, rises, and turns to the right.
     const auto key = [](double along) {
-        const math::dvec3 at = besideTheRoad(along - 4.5, 2.2 - 0.5 * along, 1.5 + 0.3 * along);
-        const math::dvec3 to = besideTheRoad(along + 1.5, 0.6 * along, 0.6 + 0.6 * along);
+        const math::dvec3 at = offTheRoad(along - 4.5, 2.2 - 0.5 * along, 1.5 + 0.3 * along);
+        const math::dvec3 to = offTheRoad(along + 1.5, 0.6 * along, 0.6 + 0.6 * along);
         return fmt::format(
             R"("position": [{}, {}, {}], "lookAt": [{}, {}, {}])",
             at.x,
@@ -116,7 +116,7 @@ class RowTeller : public render::PostEffect {
   public:
     [[nodiscard]] std::string name() const override { return "rows"; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
         return {true, "rows are taken down"};
     }
 
@@ -127,8 +127,8 @@ class RowTeller : public render::PostEffect {
             mDeforms[one.row] = true;
     }
 
-    void
-    tell(const scene::World& world, const extract::ViewRequest& view, CheckedDrawing& drawn) const {
+    void declare(const scene::World& world, const extract::ViewRequest& view, CheckedDrawing& drawn)
+        const {
         drawn.rowCount = uint32_t(mEntities.size());
         drawn.deforms = mDeforms;
         drawn.placeAt = [&world, view, entities = mEntities](uint32_t row, double share) {
@@ -454,14 +454,14 @@ CheckedDrawing CheckerHost::draw(render::Renderer& renderer, int number, double 
     request.view = game::makeView(mShot->shot, mShot->options, number * kFrameSeconds / 2.0 + 0.03);
     request.view.exposure.open = request.view.exposure.close - frames * kFrameSeconds;
     request.intermediates = {"motion", "mesh_id"};
-    RowTeller teller;
-    const std::array<render::PostEffect*, 1> effects{&teller};
+    RowTeller describer;
+    const std::array<render::PostEffect*, 1> effects{&describer};
     const auto result = renderer.renderFrame(mShot->shot.world, request, effects);
     CheckedDrawing drawn;
     EXPECT_TRUE(result.ok());
     if (!result)
         return drawn;
-    teller.tell(mShot->shot.world, request.view, drawn);
+    describer.declare(mShot->shot.world, request.view, drawn);
     const image::Image& motion = result.value().intermediates.at("motion");
     const image::Image& ids = result.value().intermediates.at("mesh_id");
     for (size_t i = 0; i < kCheckedPixels; ++i) {
@@ -473,7 +473,7 @@ CheckedDrawing CheckerHost::draw(render::Renderer& renderer, int number, double 
         if (drawn.ids[i] != 0xFFFFFFFFu)
             drawn.rowCount = std::max(drawn.rowCount, drawn.ids[i] + 1);
     }
-    drawn.cameras = tellCameras(mShot->shot.world, request.view);
+    drawn.cameras = declareCameras(mShot->shot.world, request.view);
     return drawn;
 }
 
@@ -482,8 +482,8 @@ GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) con
     const int at = 2 * frame + int(view);
     const bool isLong = one.isUneven && frame + 1 == kFrames;
     GivenFrame given;
-    static_cast<CheckedDrawing&>(given) = isLong ? mUneven : mDrawn[one.isStill ? 0 : size_t(at)];
-    if (one.isStill)
+    static_cast<CheckedDrawing&>(given) = isLong ? mUneven : mDrawn[one.isStatic ? 0 : size_t(at)];
+    if (one.isStatic)
         given.cameras.viewFromWorldBefore = given.cameras.viewFromWorld;
     given.movers = findMovers(given);
     for (const float metres : given.metres)
@@ -509,11 +509,11 @@ GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) con
 }
 
 std::vector<std::string> CheckerHost::check(const CheckCase& one) {
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     motion_blur::HostDevice host = describeHost();
     host.framesInFlight = 2 * one.viewCount;
     host.checksInputs = true;
-    host.message = [&](std::string_view sentence) { told.emplace_back(sentence); };
+    host.message = [&](std::string_view sentence) { reported.emplace_back(sentence); };
     auto blur = create(host);
     for (uint32_t frame = 0; frame < kFrames; ++frame)
         for (uint32_t view = 0; view < one.viewCount; ++view) {
@@ -521,7 +521,7 @@ std::vector<std::string> CheckerHost::check(const CheckCase& one) {
             record(*blur, frame % 2 * one.viewCount + view, given);
         }
     blur.reset(); // reports the last frames
-    return told;
+    return reported;
 }
 
 void CheckerHost::record(

@@ -91,7 +91,7 @@ struct CheckCase {
     std::string sentence; ///< part of one; empty: none may come
     std::function<void(GivenFrame&)> change;
     std::string orthographicSentence{}; ///< in place of `sentence`; empty: that
-    bool isStill = false;               ///< the camera is static in all frames
+    bool isStatic = false;              ///< the camera is static in all frames
     uint32_t viewCount = 1;
     bool needsMovers = false; ///< rigid ones, in view
     bool isUneven = false;    ///< the last frame is twice as long after the one before

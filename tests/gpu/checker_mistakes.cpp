@@ -87,17 +87,20 @@ void listConventions(Cases& add) {
                 for (int column = 0; column < 4; ++column)
                     (*clip)[column].y = -(*clip)[column].y;
         });
-    add("jitter left in, and told", "set vectorsHaveJitter = true", [](Given& g) { leaveJitter(g); }
-    );
-    add("jitter left in, and not told", "is temporal jitter left in the vectors?", [](Given& g) {
+    add("jitter left in, and reported", "set vectorsHaveJitter = true", [](Given& g) {
         leaveJitter(g);
-        g.jitterPx = g.jitterPxBefore = math::dvec2(0.0);
     });
+    add("jitter left in, and not reported",
+        "is temporal jitter left in the vectors?",
+        [](Given& g) {
+            leaveJitter(g);
+            g.jitterPx = g.jitterPxBefore = math::dvec2(0.0);
+        });
     add("jitter said to be left in", "set vectorsHaveJitter = false", [](Given& g) {
         declareJitter(g);
         g.inputs.convention.vectors.haveJitter = true;
     });
-    add("jitter left in, and told with the wrong sign",
+    add("jitter left in, and reported with the wrong sign",
         "cameras.jitterPx and jitterPxBefore have the wrong sign",
         [](Given& g) {
             leaveJitter(g);
@@ -158,12 +161,12 @@ void listConventions(Cases& add) {
         for (uint32_t& id : g.ids)
             if (id < 0xFFFFFFFF)
                 id = id * 3 + uint32_t(g.frame);
-    }).isStill = true;
+    }).isStatic = true;
     add("a mover that is not listed", "but is not in movers", [](Given& g) {
         g.isResolved = true;
         g.listed.clear();
     });
-    add("a cut that is not told", "is not the viewFromWorld of the frame before", [](Given& g) {
+    add("a cut that is not reported", "is not the viewFromWorld of the frame before", [](Given& g) {
         turnAway(g);
     });
 }

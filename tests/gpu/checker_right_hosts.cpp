@@ -63,7 +63,7 @@ void listVectors(Cases& add) {
         leaveJitter(g);
         g.inputs.convention.vectors.haveJitter = true;
     });
-    add("jitter taken out, and told", [](Given& g) { declareJitter(g); });
+    add("jitter taken out, and reported", [](Given& g) { declareJitter(g); });
 }
 
 void listDepthAndCameras(Cases& add) {
@@ -86,8 +86,8 @@ void listDepthAndCameras(Cases& add) {
         g.cameras = {};
         storeLinearDepth(g, 1.0f);
     });
-    add("nothing moves", [](Given& g) { g.motion.assign(kCheckedPixels, {}); }).isStill = true;
-    add("a cut, and told", [](Given& g) {
+    add("nothing moves", [](Given& g) { g.motion.assign(kCheckedPixels, {}); }).isStatic = true;
+    add("a cut, and reported", [](Given& g) {
         turnAway(g);
         g.inputs.convention.scales.isCut = g.frame > 0;
     });

@@ -35,7 +35,7 @@ void expectMessage(const core::Result<gpu::DeviceInfo>& result, const std::strin
     EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
 }
 
-TEST(DeviceChoice, WithoutAWishASoftwareDeviceComesLastWhateverItCan) {
+TEST(DeviceChoice, ASoftwareDeviceIsTheLastDefaultChoiceRegardlessOfItsFeatures) {
     using gpu::RayTier;
     // Mesa's software device, next to the cards of a desktop or a data centre.
     const gpu::DeviceInfo lavapipe = makeInfo("llvmpipe (LLVM 19)", "software", RayTier::RayQuery);
@@ -148,7 +148,7 @@ TEST_F(Devices, AValidatedOneChecksBounds) {
     EXPECT_TRUE(open(options)->checksBounds());
 }
 
-TEST_F(Devices, WithoutRaysHybridIsRefusedAndGatherDrawsTheSame) {
+TEST_F(Devices, ADeviceWithoutRaysRefusesHybridAndDrawsGatherUnchanged) {
     gpu::DeviceOptions options;
     options.validate = true;
     options.bestTier = gpu::RayTier::None;
@@ -184,7 +184,7 @@ class AdoptedDevice : public test::GpuTest {
     }
 };
 
-TEST_F(AdoptedDevice, WhatIsRetiredWaitsForEverythingHandedOverUntilThen) {
+TEST_F(AdoptedDevice, RetiredObjectsWaitForAllEarlierSubmissions) {
     const auto host = adopt();
     host->markDone(0);
     const uint64_t first = host->handOver();
@@ -201,7 +201,7 @@ TEST_F(AdoptedDevice, WhatIsRetiredWaitsForEverythingHandedOverUntilThen) {
     EXPECT_EQ(host->completedValue(), second);
 }
 
-TEST_F(AdoptedDevice, ItEndsWithWhatItHoldsAndWithoutTheHostsDevice) {
+TEST_F(AdoptedDevice, DestructionFreesItsObjectsAndNotTheHostsDevice) {
     bool destroyed = false;
     {
         const auto host = adopt();
@@ -233,7 +233,7 @@ TEST_F(AdoptedDevice, PipelinesAreKeptInTheHostsCache) {
     EXPECT_NE(adopt()->pipelineCache(), VkPipelineCache(VK_NULL_HANDLE)) << "or one of its own";
 }
 
-TEST_F(AdoptedDevice, LaunchesFromMemoryAreTheHostsToAllow) {
+TEST_F(AdoptedDevice, IndirectLaunchesRequireTheHostsFeature) {
     if (!device().info().hasRayPipeline)
         GTEST_SKIP() << device().info().name << " has no ray-tracing pipelines";
     for (const bool allowed : {false, true}) {
@@ -275,7 +275,7 @@ TEST_F(AdoptedDevice, ANullHandleIsNamed) {
 
 using AdoptedDeviceDeathTest = AdoptedDevice;
 
-TEST_F(AdoptedDeviceDeathTest, ItDoesNotWaitForTheHost) {
+TEST_F(AdoptedDeviceDeathTest, DestructionDoesNotWaitForTheHost) {
     ::testing::FLAGS_gtest_death_test_style = "threadsafe"; // the driver has threads
     const auto host = adopt();
     const uint64_t value = host->handOver();

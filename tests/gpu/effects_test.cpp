@@ -35,7 +35,7 @@ class Bloom : public test::GpuTest {
         const graph::ImageHandle color = isHalf ? rig.uploadColor(picture) : rig.upload(picture);
         test::EffectRig effect(rig, color, picture.width, picture.height);
         bloom::Bloom bloom(device(), settings);
-        EXPECT_TRUE(bloom.ask(effect.facts).run);
+        EXPECT_TRUE(bloom.decide(effect.facts).run);
         bloom.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);
         test::run(rig);
@@ -59,7 +59,7 @@ class Bloom : public test::GpuTest {
     }
 };
 
-TEST_F(Bloom, WhatIsEvenStaysAsItIsAndTheBrightestFinite) {
+TEST_F(Bloom, AUniformPictureIsUnchangedAndTheBrightestStaysFinite) {
     EXPECT_TRUE(test::allFinite(run(test::makePicture(96, 64, 65000.0f), 1.0f)));
     for (const auto size : {glm::uvec2(64, 48), glm::uvec2(131, 37), glm::uvec2(8, 200)}) {
         const image::Image bloomed = run(test::makePicture(size.x, size.y, 0.75f), 0.3f);
@@ -96,7 +96,7 @@ TEST_F(Bloom, LightSpreadsAlikeInAllDirections) {
         }
 }
 
-TEST_F(Bloom, ItReachesTheSameShareOfThePictureAtEachResolution) {
+TEST_F(Bloom, SpreadCoversTheSameShareOfThePictureAtEachResolution) {
     const image::Image small = run(makePoint(128, 128, 64, 64), 0.5f);
     image::Image same = makePoint(256, 256, 128, 128); // the same light at twice the resolution
     for (const auto at : {glm::uvec2(129, 128), glm::uvec2(128, 129), glm::uvec2(129, 129)})
@@ -117,7 +117,7 @@ TEST_F(Bloom, SumsOfFloatsAreFilteredAlike) {
         ASSERT_NEAR(half.pixels[i], whole.pixels[i], 4e-3f) << i;
 }
 
-TEST_F(Bloom, WhatIsBelowTheKneeStaysAsItIs) {
+TEST_F(Bloom, LightBelowTheKneeIsUnchanged) {
     image::Image noise = test::makeNoise(123, 77);
     for (float& value : noise.pixels)
         value = image::roundToHalf(0.25f + 0.25f * value); // the knee begins at 0.5
@@ -126,7 +126,7 @@ TEST_F(Bloom, WhatIsBelowTheKneeStaysAsItIs) {
         ASSERT_EQ(bloomed.pixels[i], noise.pixels[i]) << i;
 }
 
-TEST_F(Bloom, OnlyLightAboveTheThresholdSpreadsAndTheWholeIsKept) {
+TEST_F(Bloom, LightAboveTheThresholdSpreadsAndTotalLightIsPreserved) {
     image::Image point = makePoint(256, 256, 120, 117);
     for (float& value : point.pixels)
         value += 0.25f; // around the light, below the knee
@@ -148,35 +148,35 @@ TEST_F(Bloom, AMeanThatIsBelowTheThresholdDoesNotHideAHighlight) {
     EXPECT_NEAR(sum(bloomed), 12.0, 0.2);
 }
 
-TEST_F(Bloom, ItRunsWhereTheLastPictureHadAHighlightOrIsNotKnown) {
+TEST_F(Bloom, BloomRunsIfTheLastPictureHadAHighlightOrIsUnknown) {
     const bloom::BloomSettings settings{.share = 0.1f, .threshold = 2.0f, .knee = 0.25f};
     const bloom::Bloom bloom(device(), settings);
     EXPECT_EQ(bloom::findKneeStart(settings), 1.5f);
     render::ViewFacts facts;
     facts.width = 640;
     facts.height = 360;
-    EXPECT_TRUE(bloom.ask(facts).run);
+    EXPECT_TRUE(bloom.decide(facts).run);
     facts.lastBrightest = 1.51f;
-    EXPECT_TRUE(bloom.ask(facts).run);
+    EXPECT_TRUE(bloom.decide(facts).run);
     facts.lastBrightest = 1.5f;
-    EXPECT_FALSE(bloom.ask(facts).run);
-    EXPECT_NE(bloom.ask(facts).reason.find("knee"), std::string::npos);
+    EXPECT_FALSE(bloom.decide(facts).run);
+    EXPECT_NE(bloom.decide(facts).reason.find("knee"), std::string::npos);
     // Without a threshold all light is scattered; in the dark there is none.
     const bloom::Bloom all(device(), {.share = 0.1f, .threshold = 0.0f});
-    EXPECT_TRUE(all.ask(facts).run);
-    EXPECT_FALSE(bloom::Bloom(device(), {0.0f}).ask(facts).run);
+    EXPECT_TRUE(all.decide(facts).run);
+    EXPECT_FALSE(bloom::Bloom(device(), {0.0f}).decide(facts).run);
     facts.lastBrightest = 0.0f;
-    EXPECT_FALSE(all.ask(facts).run);
+    EXPECT_FALSE(all.decide(facts).run);
     facts = {};
     facts.width = 640;
     facts.height = 7;
-    EXPECT_FALSE(all.ask(facts).run) << "a tiny picture";
+    EXPECT_FALSE(all.decide(facts).run) << "a tiny picture";
     for (const glm::uvec3 levels :
          {glm::uvec3(7, 640, 0), {8, 640, 1}, {1920, 1080, 8}, {65536, 65536, 10}})
         EXPECT_EQ(bloom::countLevels(levels.x, levels.y), levels.z);
 }
 
-TEST(BloomKnee, RisesFromNothingToAllThatIsAboveTheThreshold) {
+TEST(BloomKnee, TheKneeRisesFromZeroToAllLightAboveTheThreshold) {
     const float threshold = 2.0f;
     const float knee = 0.5f;
     const auto find = [&](float peak) {
@@ -276,7 +276,7 @@ class BrightestChannel : public Tonemap {
     image::Image mDisplay; ///< of the last one
 };
 
-TEST_F(BrightestChannel, IsFoundWhereverItIs) {
+TEST_F(BrightestChannel, TheMaximumIsFoundAtAnyPixel) {
     // No multiple of the group's 8.
     for (const auto at : {glm::uvec2(0, 0), glm::uvec2(130, 8), glm::uvec2(64, 3)})
         for (uint32_t channel = 0; channel < 3; ++channel) {
@@ -289,7 +289,7 @@ TEST_F(BrightestChannel, IsFoundWhereverItIs) {
     EXPECT_EQ(measure(test::makePicture(16, 8, 0.0f)), 0.0) << "a smaller one after a larger one";
 }
 
-TEST_F(BrightestChannel, IsMeasuredForThoseWhoAskAndChangesNothing) {
+TEST_F(BrightestChannel, TheMaximumIsMeasuredOnRequestWithoutChangingThePicture) {
     const image::Image colors = makeColors(40, 24);
     EXPECT_TRUE(measure(colors).has_value());
     const image::Image measured = mDisplay;
@@ -338,7 +338,7 @@ struct LongestScene {
     }
 };
 
-TEST_F(LongestMotion, ItIsThatOfThePixels) {
+TEST_F(LongestMotion, TheMeasureEqualsThatOfThePixels) {
     const LongestScene scene;
     render::LongestMotion effect(device());
     for (int again = 0; again < 2; ++again) { // a frame's numbers are its own

@@ -102,11 +102,11 @@ constexpr const char* kStillWorld = "resolved without ids";
 
 HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     HostPlan plan;
-    const bool isStill = method == kStillWorld;
+    const bool isStatic = method == kStillWorld;
     const bool draws = method == kDrawing;
     const bool blends = method == kBlending;
-    plan.settings = settingsOf(isStill || draws ? "resolved" : blends ? "gather" : method);
-    if (isStill)
+    plan.settings = settingsOf(isStatic || draws ? "resolved" : blends ? "gather" : method);
+    if (isStatic)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
     plan.height = height;
@@ -140,14 +140,14 @@ class EmbeddedAhead : public test::EmbeddedTest {
     }
 };
 
-TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
+TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
         for (const char* method :
              {"gather", "hybrid", "resolved", "adaptive", kStillWorld, kDrawing, kBlending}) {
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
-            const auto told = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
-            ASSERT_TRUE(told.ok()) << told.error().message;
+            const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
+            ASSERT_TRUE(reported.ok()) << reported.error().message;
             const auto blur = create(describeHost());
             const Host host(device(), size.x, size.y);
             for (uint32_t frame = 0; frame < 4; ++frame) {
@@ -156,14 +156,14 @@ TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
                 ASSERT_TRUE(done.ok()) << done.error().message;
             }
             const auto held = double(blur->living().memoryBytes);
-            EXPECT_NEAR(double(told.value()), held, 0.1 * held);
+            EXPECT_NEAR(double(reported.value()), held, 0.1 * held);
         }
 }
 
 TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
     const auto refuse = [](const HostPlan& plan, const std::string& part) {
-        const auto told = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
-        test::expectRefusal(told ? core::Status() : core::Status(told.error()), part);
+        const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
+        test::expectRefusal(reported ? core::Status() : core::Status(reported.error()), part);
     };
     HostPlan plan = planOf("resolved", 64, 0);
     refuse(plan, "the size is 64 x 0");
@@ -243,23 +243,23 @@ TEST_F(EmbeddedAhead, AReportHasTimesOfEachPassAndCounters) {
     EXPECT_FALSE(silent->report(0).ok()) << "it does not measure";
 }
 
-TEST_F(EmbeddedAhead, ABudgetGivesUpQualityUntilItIsKept) {
+TEST_F(EmbeddedAhead, ABudgetReducesQualityUntilItIsMet) {
     const auto blur = createMeasuring();
     const Host host(device(), 96, 64);
     HostInputs in = host.inputs();
     in.budget.milliseconds = 1e-6; // nothing fits
-    std::string gaveUp;
+    std::string droppedQuality;
     for (uint32_t frame = 0; frame < 8; ++frame) {
         ASSERT_TRUE(draw(*blur, host, frame % 2, in, settingsOf("resolved")).ok());
-        gaveUp = blur->report(frame % 2).value().gaveUp;
+        droppedQuality = blur->report(frame % 2).value().droppedQuality;
         if (frame == 0) {
-            EXPECT_EQ(gaveUp, "");
+            EXPECT_EQ(droppedQuality, "");
         }
     }
-    EXPECT_NE(gaveUp, "");
+    EXPECT_NE(droppedQuality, "");
     in.budget.milliseconds = 1e6; // a new budget restarts
     ASSERT_TRUE(draw(*blur, host, 0, in, settingsOf("resolved")).ok());
-    EXPECT_EQ(blur->report(0).value().gaveUp, "");
+    EXPECT_EQ(blur->report(0).value().droppedQuality, "");
 }
 
 } // namespace

@@ -258,19 +258,19 @@ class EmbeddedBlended : public test::EmbeddedTest {
 
     /// Sentences of the checker for the layer.
     std::vector<std::string> check(const vec4& texel) {
-        std::vector<std::string> told;
+        std::vector<std::string> reported;
         motion_blur::HostDevice host = describeHost();
         host.checksInputs = true;
         host.message = [&](std::string_view sentence) {
             if (sentence.find("blended") != std::string_view::npos)
-                told.emplace_back(sentence);
+                reported.emplace_back(sentence);
         };
         mBlur = create(host);
         HostInputs inputs = describe();
         inputs.blended = makeLayer(texel);
         (void)draw(inputs, "gather");
         mBlur = create(describeHost());
-        return told;
+        return reported;
     }
 
     void expectSameInPlace(const HostInputs& inputs, const image::Image& picture) {
@@ -293,7 +293,7 @@ class EmbeddedBlended : public test::EmbeddedTest {
     Raster mBefore; ///< of the previous frame, which shows the wall behind the square
 };
 
-TEST_F(EmbeddedBlended, DrawnAtInstantsIsHiddenAndShowsWhatIsBehindAtEachOfThem) {
+TEST_F(EmbeddedBlended, LayersDrawnPerInstantAreHiddenAndTransparentAtEachInstant) {
     const image::Image truth = makeTruth();
     HostInputs inputs = describeDrawn();
     inputs.motion.followsLast = true;
@@ -321,13 +321,13 @@ TEST_F(EmbeddedBlended, DrawnAtInstantsIsHiddenAndShowsWhatIsBehindAtEachOfThem)
     EXPECT_GT(whole, filtered + 6.0);
 }
 
-TEST_F(EmbeddedBlended, DrawnIsTheSamePictureByEitherInterfaceAndWithOpacityInAlpha) {
+TEST_F(EmbeddedBlended, BothInterfacesAndAlphaOpacityGiveTheSamePicture) {
     HostInputs inputs = describeDrawn();
     const image::Image picture = draw(inputs);
     const test::BlurOfC c(device());
     const test::Picture output(device(), {kSize.width, kSize.height});
     inputs.output = output.output();
-    const test::InputsForC told(inputs);
+    const test::InputsForC reported(inputs);
     ShutterBlurSettings settings = shutterBlurDefaultSettings();
     settings.method = "resolved";
     settings.sampleCount = kInstants;
@@ -335,7 +335,8 @@ TEST_F(EmbeddedBlended, DrawnIsTheSamePictureByEitherInterfaceAndWithOpacityInAl
         for (const HostTexels& texels : mTexels)
             texels.record(commands);
         EXPECT_EQ(
-            shutterBlurRecord(c.blur, commands, 0, &told.inputs, &settings), SHUTTER_BLUR_SUCCESS
+            shutterBlurRecord(c.blur, commands, 0, &reported.inputs, &settings),
+            SHUTTER_BLUR_SUCCESS
         ) << shutterBlurGetMessage();
         output.recordReadback(commands);
     });
@@ -345,7 +346,7 @@ TEST_F(EmbeddedBlended, DrawnIsTheSamePictureByEitherInterfaceAndWithOpacityInAl
     EXPECT_EQ(mPane->tasks[0].opacity.image, VkImage{});
 }
 
-TEST_F(EmbeddedBlended, DrawnInAnAreaChangesNothingBesideIt) {
+TEST_F(EmbeddedBlended, ALayerDrawnInAnAreaChangesNothingOutside) {
     HostInputs inputs = describeDrawn();
     const image::Image whole = draw(inputs);
     const image::Image without = draw(describe());
@@ -364,7 +365,7 @@ TEST_F(EmbeddedBlended, DrawnInAnAreaChangesNothingBesideIt) {
     }
 }
 
-TEST_F(EmbeddedBlended, MoreInstantsThanTheMethodHasAreNotDrawn) {
+TEST_F(EmbeddedBlended, InstantsBeyondThoseOfTheMethodAreNotDrawn) {
     HostInputs inputs = describeDrawn();
     inputs.drawn.instantCount = 200;
     (void)draw(inputs);
@@ -378,7 +379,7 @@ TEST_F(EmbeddedBlended, MoreInstantsThanTheMethodHasAreNotDrawn) {
     EXPECT_EQ(mPane->tasks[0].instantCount, 3u);
 }
 
-TEST_F(EmbeddedBlended, GoesOverTheSharpPictureWhereTheBlurIsOff) {
+TEST_F(EmbeddedBlended, TheLayerIsDrawnOverTheSharpPictureWithBlurOff) {
     const vec4 layer(0.25f, 0.125f, 0.0f, 0.5f);
     HostInputs inputs = describe();
     inputs.isOff = true;
@@ -408,7 +409,7 @@ TEST_F(EmbeddedBlended, GoesOverTheSharpPictureWhereTheBlurIsOff) {
     EXPECT_FALSE(test::sameBits(drawn, draw(inputs)));
 }
 
-TEST_F(EmbeddedBlended, AsPartOfALargerImageIsTheSamePicture) {
+TEST_F(EmbeddedBlended, PartOfALargerImageGivesTheSamePicture) {
     constexpr VkExtent2D kLarger{kSize.width + 9, kSize.height + 5};
     std::vector<vec4> own(kPixels);
     std::vector<vec4> larger(size_t{kLarger.width} * kLarger.height, vec4(7.0f));
@@ -427,7 +428,7 @@ TEST_F(EmbeddedBlended, AsPartOfALargerImageIsTheSamePicture) {
     EXPECT_TRUE(test::sameBits(draw(inputs, "gather"), picture));
 }
 
-TEST_F(EmbeddedBlended, NumbersThatAreNoneLeaveThePictureOrAFiniteOne) {
+TEST_F(EmbeddedBlended, NonFiniteInputsLeaveThePictureUnchangedOrFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
     HostInputs inputs = describe();
@@ -444,21 +445,21 @@ TEST_F(EmbeddedBlended, NumbersThatAreNoneLeaveThePictureOrAFiniteOne) {
 
 TEST_F(EmbeddedBlended, TheCheckerNamesWhatIsNoLightAndNoOpacity) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const auto expectTold = [&](const vec4& texel, const char* part) {
-        const std::vector<std::string> told = check(texel);
-        ASSERT_EQ(told.size(), 1u) << part;
-        EXPECT_NE(told[0].find(part), std::string::npos) << told[0];
+    const auto expectReported = [&](const vec4& texel, const char* part) {
+        const std::vector<std::string> reported = check(texel);
+        ASSERT_EQ(reported.size(), 1u) << part;
+        EXPECT_NE(reported[0].find(part), std::string::npos) << reported[0];
     };
-    expectTold({nan, 0, 0, 0}, "blended holds NaN or infinity at 6144 pixels (100 %)");
-    expectTold({0, 0, 0, nan}, "blended holds NaN or infinity");
-    expectTold({0, -0.5f, 0, 0.5f}, "blended is negative");
-    expectTold({0, 0, 0, 1.5f}, "the alpha of blended is outside [0, 1]");
-    expectTold({0, 0, 0, -0.5f}, "the alpha of blended is outside [0, 1]");
+    expectReported({nan, 0, 0, 0}, "blended holds NaN or infinity at 6144 pixels (100 %)");
+    expectReported({0, 0, 0, nan}, "blended holds NaN or infinity");
+    expectReported({0, -0.5f, 0, 0.5f}, "blended is negative");
+    expectReported({0, 0, 0, 1.5f}, "the alpha of blended is outside [0, 1]");
+    expectReported({0, 0, 0, -0.5f}, "the alpha of blended is outside [0, 1]");
     for (const vec4& texel : {vec4(0.0f), vec4(1.0f), vec4(900, 0, 0, 0), vec4(1.0f / 2049.0f)})
         EXPECT_TRUE(check(texel).empty());
 }
 
-TEST_F(EmbeddedBlended, WhatIsWrongWithItIsRefused) {
+TEST_F(EmbeddedBlended, InvalidInputsAreRefused) {
     const auto refuse = [&](const char* part, const auto& change) {
         HostInputs inputs = describeDrawn();
         const test::Picture picture(device(), {kSize.width, kSize.height});

@@ -15,7 +15,7 @@ namespace {
 
 class EmbeddedChecker : public test::CheckerHost {};
 
-TEST_P(EmbeddedChecker, CostsNothingWhenOffAndChangesNoBit) {
+TEST_P(EmbeddedChecker, TheCheckerIsFreeWhenOffAndChangesNoBit) {
     const test::CheckCase& plain = test::listRightHosts().front();
     motion_blur::HostDevice host = describeHost();
     const auto off = create(host);
@@ -48,7 +48,7 @@ TEST_P(EmbeddedChecker, CostsNothingWhenOffAndChangesNoBit) {
     EXPECT_EQ(on->living(), before);
 }
 
-TEST_P(EmbeddedChecker, NamesEachMistake) {
+TEST_P(EmbeddedChecker, EachMistakeIsNamed) {
     if (GetParam().hidesMistakes)
         return;
     for (const test::CheckCase& one : test::listMistakes()) {
@@ -66,7 +66,7 @@ TEST_P(EmbeddedChecker, NamesEachMistake) {
     }
 }
 
-TEST_P(EmbeddedChecker, SaysNothingOfWhatIsRight) {
+TEST_P(EmbeddedChecker, ValidInputsAreNotReported) {
     for (const test::CheckCase& one : test::listRightHosts()) {
         SCOPED_TRACE(one.name);
         for (const std::string& sentence : check(one))
@@ -143,7 +143,7 @@ TEST_P(EmbeddedWorld, AStillWorldNeedsNoIds) {
     EXPECT_LT(image::computePsnr(one, drawSharp()), 45.0) << "nothing was blurred";
 }
 
-TEST_P(EmbeddedWorld, AtACutTheRastersKeyAloneCounts) {
+TEST_P(EmbeddedWorld, OnlyTheRasterKeyIsUsedAtACut) {
     const image::Image cut = draw([](test::GivenFrame& given) {
         given.hasVectors = false;
         if (given.frame < 2)

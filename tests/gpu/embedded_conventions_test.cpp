@@ -444,7 +444,7 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     EXPECT_TRUE(test::sameBits(draw(inputs), own));
 }
 
-TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
+TEST_F(EmbeddedConventions, OnlyTheCameraMovesWithoutVectors) {
     HostInputs inputs = movingCameraInputs();
     HostConvention& convention = inputs.convention;
     const glm::vec2 still{0.0f};
@@ -483,7 +483,7 @@ TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
     EXPECT_FALSE(test::sameBits(draw(inputs, settings), own)) << "nothing was blurred";
 }
 
-TEST_F(EmbeddedConventions, SharesOfTheMotionAreBlurred) {
+TEST_F(EmbeddedConventions, ScalesOfTheMotionScaleTheBlur) {
     HostInputs half = conventionInputs();
     half.convention.scales.exposureShare = 0.5f;
     const image::Image own = draw(half);
@@ -555,7 +555,7 @@ class EmbeddedOverlay : public EmbeddedConventions {
     std::set<std::string> mPasses;
 };
 
-TEST_F(EmbeddedOverlay, CoversThePanelsWhoseInputsThereAreAndNothingElse) {
+TEST_F(EmbeddedOverlay, OnlyPanelsWithInputsAreDrawn) {
     HostInputs inputs = describe();
     const image::Image without = draw(inputs);
     EXPECT_FALSE(mPasses.contains("show inputs"));

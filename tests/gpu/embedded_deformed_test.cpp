@@ -228,7 +228,7 @@ TEST_F(EmbeddedDeformed, AWayThatBendsIsFollowedThroughTheRaster) {
     EXPECT_GT(bent, 30.0);
 }
 
-TEST_F(EmbeddedDeformed, WhatIsUncoveredIsFoundInTheLastRaster) {
+TEST_F(EmbeddedDeformed, UncoveredSurfacesAreFoundInTheLastRaster) {
     const image::Image truth = makeTruth(kUncovering);
     const double found = image::computePsnr(draw(kUncovering, {}), truth);
     const double guessed = image::computePsnr(draw(kUncovering, {.lastDeformed = false}), truth);
@@ -236,7 +236,7 @@ TEST_F(EmbeddedDeformed, WhatIsUncoveredIsFoundInTheLastRaster) {
     EXPECT_GT(found, 30.0);
 }
 
-TEST_F(EmbeddedDeformed, WithoutTheirMotionDeformersAreNoWorseThanGathered) {
+TEST_F(EmbeddedDeformed, DeformersWithoutMotionImagesAreNoWorseThanGathered) {
     for (const World& world : {kBraking, kUncovering}) {
         const image::Image truth = makeTruth(world);
         const Given without{.deformed = false, .lastDeformed = false};

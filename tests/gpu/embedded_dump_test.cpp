@@ -38,7 +38,7 @@ class EmbeddedDump : public test::EmbeddedTest {
         if (!mBlur)
             return;
         mHost = describeHost();
-        mHost.message = [this](std::string_view sentence) { mTold.emplace_back(sentence); };
+        mHost.message = [this](std::string_view sentence) { mReported.emplace_back(sentence); };
         mBlur = create(mHost);
     }
 
@@ -131,7 +131,7 @@ class EmbeddedDump : public test::EmbeddedTest {
 
     /// Replays the dump and expects pictures to be those, bit for bit.
     void expectReplayed(const std::vector<image::Image>& pictures) {
-        EXPECT_TRUE(mTold.empty()) << mTold.front();
+        EXPECT_TRUE(mReported.empty()) << mReported.front();
         for (size_t i = 0; i < pictures.size(); ++i) {
             auto frame = replay::readDumpManifest(mFolder / fmt::format("frame_{:04}.json", i));
             ASSERT_TRUE(frame.ok()) << frame.error().message;
@@ -163,7 +163,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     test::TempFolder mTemp;
     fs::path mFolder = mTemp.path() / "dump";
     motion_blur::HostDevice mHost;
-    std::vector<std::string> mTold;
+    std::vector<std::string> mReported;
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
     std::vector<math::ResponsePoint> mResponse;
@@ -177,11 +177,11 @@ class EmbeddedDump : public test::EmbeddedTest {
 
 motion_blur::MotionBlurSettings resolvedWithNoise() {
     motion_blur::MotionBlurSettings settings = test::settingsOf("resolved", 5);
-    settings.instantNoise = motion_blur::InstantNoise::Turning;
+    settings.instantNoise = motion_blur::InstantNoise::PerFrame;
     return settings;
 }
 
-TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureWhateverItsInputs) {
+TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
     struct Case {
         const char* name;
         motion_blur::MotionBlurSettings settings;
@@ -270,7 +270,7 @@ TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
     refuse("adaptive", "needs the scene, which no dump holds");
 }
 
-TEST_F(EmbeddedDump, WhatIsWrongWithADumpIsTold) {
+TEST_F(EmbeddedDump, FaultsOfADumpAreReported) {
     startDump(1);
     const auto refuse = [&](const fs::path& folder, uint32_t frames, const char* sentence) {
         test::expectRefusal(mBlur->dump(folder, frames), sentence);
@@ -284,8 +284,8 @@ TEST_F(EmbeddedDump, WhatIsWrongWithADumpIsTold) {
     startDump(2);
     fs::remove_all(mFolder);
     (void)draw(0);
-    ASSERT_EQ(mTold.size(), 1u);
-    EXPECT_NE(mTold[0].find("No such file or directory"), std::string::npos) << mTold[0];
+    ASSERT_EQ(mReported.size(), 1u);
+    EXPECT_NE(mReported[0].find("No such file or directory"), std::string::npos) << mReported[0];
     ASSERT_TRUE(mBlur->dump(mFolder, 1).ok()) << "the last one has ended";
 }
 

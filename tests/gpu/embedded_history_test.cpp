@@ -57,9 +57,9 @@ class EmbeddedHistory : public test::EmbeddedTest {
         uint32_t width = 64;
         const char* method = "resolved";
         bool history = true;
-        uint32_t id = 0;      ///< of all its pixels; there is one row
-        int index = 1;        ///< of the frame: the pictures of each show another part of the wall
-        bool isStill = false; ///< the camera is static at the frame's end
+        uint32_t id = 0;       ///< of all its pixels; there is one row
+        int index = 1;         ///< of the frame: the pictures of each show another part of the wall
+        bool isStatic = false; ///< the camera is static at the frame's end
     };
 
     void SetUp() override {
@@ -77,9 +77,9 @@ class EmbeddedHistory : public test::EmbeddedTest {
     }
 
     /// A wall 5 m away, and a camera that has panned by a third of the picture in each frame.
-    static std::array<HostCameraKey, 2> makeKeys(int index, bool isStill) {
+    static std::array<HostCameraKey, 2> makeKeys(int index, bool isStatic) {
         const auto key = [&](double time) {
-            const double angle = 0.4 * (index - 1.0 + (isStill ? 1.0 : time));
+            const double angle = 0.4 * (index - 1.0 + (isStatic ? 1.0 : time));
             const glm::dvec3 up(0.0, 1.0, 0.0);
             return HostCameraKey{
                 time,
@@ -91,7 +91,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
 
     core::Status
     record(VkCommandBuffer commands, uint32_t slot, const Frame& frame, HostInputs in) {
-        const std::array<HostCameraKey, 2> keys = makeKeys(frame.index, frame.isStill);
+        const std::array<HostCameraKey, 2> keys = makeKeys(frame.index, frame.isStatic);
         in.motion.keys = keys;
         in.motion.movers = mMovers;
         in.motion.rowCount = 1;
@@ -179,7 +179,7 @@ TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereThereIsOneAndTheHostSaysSo)
     EXPECT_FALSE(looksBack({.brightness = 4.0f, .history = false}));
 }
 
-TEST_F(EmbeddedHistory, AFrameThatIsLentGivesTheBitsOfOneThatIsKept) {
+TEST_F(EmbeddedHistory, HostHistoryImagesGiveTheBitsOfStoredHistory) {
     const auto drawSecond = [&](bool lends) {
         SetUp(); // an effect that holds nothing yet
         submit({.brightness = 1.0f, .followsLast = false, .index = 0}, 0);
@@ -204,7 +204,7 @@ TEST_F(EmbeddedHistory, AFrameInWhichNothingMovedNeedsNoRecording) {
     const auto drawLast = [&](int stillFrames) {
         drawFirst();
         for (int i = 0; i < stillFrames; ++i)
-            (void)draw({.brightness = 1.0f, .index = 0, .isStill = true});
+            (void)draw({.brightness = 1.0f, .index = 0, .isStatic = true});
         return draw({.brightness = 4.0f});
     };
     const Range without = drawLast(0);
@@ -214,14 +214,14 @@ TEST_F(EmbeddedHistory, AFrameInWhichNothingMovedNeedsNoRecording) {
     EXPECT_EQ(without.mean, with.mean);
 }
 
-TEST_F(EmbeddedHistory, AnotherSizeHasNone) {
+TEST_F(EmbeddedHistory, AChangedSizeHasNoHistory) {
     drawFirst();
     EXPECT_FALSE(looksBack({.brightness = 4.0f, .width = 80}));
     (void)draw({.brightness = 1.0f, .width = 80, .index = 0});
     EXPECT_TRUE(looksBack({.brightness = 4.0f, .width = 80}));
 }
 
-TEST_F(EmbeddedHistory, AnotherMethodInBetweenLeavesNone) {
+TEST_F(EmbeddedHistory, AnotherMethodInBetweenLeavesNoHistory) {
     drawFirst();
     (void)draw({.brightness = 1.0f, .method = "gather"});
     EXPECT_FALSE(looksBack({.brightness = 4.0f}));
@@ -230,7 +230,7 @@ TEST_F(EmbeddedHistory, AnotherMethodInBetweenLeavesNone) {
     EXPECT_FALSE(looksBack({.brightness = 4.0f}));
 }
 
-TEST_F(EmbeddedHistory, ARefusedFrameInBetweenLeavesNoneAndOneThatIsDroppedMayBeLeftBehind) {
+TEST_F(EmbeddedHistory, ARefusedFrameLeavesNoHistoryAndADroppedFrameIsAllowed) {
     for (const bool isRefused : {true, false}) {
         drawFirst();
         InFlight one(device(), 64);
@@ -247,7 +247,7 @@ TEST_F(EmbeddedHistory, ARefusedFrameInBetweenLeavesNoneAndOneThatIsDroppedMayBe
     EXPECT_TRUE(looksBack({.brightness = 4.0f}));
 }
 
-TEST_F(EmbeddedHistory, ViewsInTurnsHaveTheirOwnWithFramesInFlight) {
+TEST_F(EmbeddedHistory, AlternatingViewsHaveSeparateHistoriesWithFramesInFlight) {
     // Without waiting: five recordings are in flight at once, each under its own number.
     submit({.brightness = 1.0f, .view = 0, .followsLast = false, .index = 0}, 0);
     submit({.brightness = 16.0f, .view = 3, .index = 0}, 1);
@@ -272,7 +272,7 @@ TEST_F(EmbeddedHistory, IdsThatAreNoRowsAndTransformsBeyondAllRangeAreDrawn) {
     drawFirst();
     const Range row = draw({.brightness = 4.0f, .id = 0});
     ASSERT_LT(unknown.mean, row.mean - 0.1)
-        << "the row is found in this frame, what is none is not";
+        << "the row is found in this frame, an invalid one is not";
     // 0x1000000 has the low bits of row 0, and must not be taken for it.
     for (const uint32_t id : {0xFFFFFEu, 0xFFFFFFu, 0x1000000u, 0x80000000u, 0xFFFFFFFEu}) {
         drawFirst();

@@ -46,9 +46,9 @@ class EmbeddedLayer : public test::EmbeddedTest {
     void expectEnginesPicture(test::SceneBuilder& scene, const MotionBlurSettings& settings) {
         SCOPED_TRACE(settings.method->name);
         test::BlurStage stage(device(), scene, describeHost(), settings, settings);
-        test::Teller teller(settings.sampleCount);
+        test::MotionDescriber describer(settings.sampleCount);
         if (settings.method->readsInstantMotions)
-            stage.tellMotion(teller);
+            stage.declareMotion(describer);
         render::BlendedLayerPass pass(device(), stage.renderer.scene());
         extract::BlendedLayer layer;
         stage.host.changeInputs = [&](const render::PostContext& context, HostInputs&) {

@@ -17,9 +17,9 @@ using test::BlurStage;
 using test::expectSame;
 using test::gather;
 using test::HostFrame;
+using test::MotionDescriber;
 using test::settingsOf;
 using test::StagedFrame;
-using test::Teller;
 
 class EmbeddedPictures : public test::EmbeddedTest {
   protected:
@@ -70,7 +70,7 @@ TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
         BlurStage stage(device(), scene, describeHost(), settings, settings);
         stage.host.changeInputs = [&](const render::PostContext& context, auto& inputs) {
             inputs.rays = {};
-            inputs.convention.cameras = test::tellCameras(scene.world, context.view);
+            inputs.convention.cameras = test::declareCameras(scene.world, context.view);
             inputs.convention.scales.exposureShare = 1.0f;
         };
         const image::Image sharp = stage.drawSharp().color;
@@ -108,7 +108,7 @@ TEST_F(EmbeddedPictures, FramesInFlightMayChangeTheirSize) {
     EXPECT_EQ(last, small) << "what the large pictures needed is gone";
 }
 
-TEST_F(EmbeddedPictures, WhatResizingLeftOverGoesWhenItsFramesAreDone) {
+TEST_F(EmbeddedPictures, ResourcesRetiredByAResizeAreFreedWhenTheirFramesAreDone) {
     HostDevice description = describeHost();
     description.framesInFlight = 3;
     mBlur = create(description);
@@ -160,10 +160,10 @@ class Scene : public test::SceneBuilder {
 /// `resolved`, frame after frame, for a host that gives the motion of its camera and entities.
 class EmbeddedInstants : public test::EmbeddedTest {
   protected:
-    void start(Teller teller, const MotionBlurSettings& settings = resolved()) {
-        mTeller.emplace(std::move(teller));
+    void start(MotionDescriber describer, const MotionBlurSettings& settings = resolved()) {
+        mTeller.emplace(std::move(describer));
         mStage.emplace(device(), mScene, describeHost(), settings, settings);
-        mStage->tellMotion(*mTeller);
+        mStage->declareMotion(*mTeller);
         mStage->shutter.exposureSeconds = mStage->frameSeconds = 0.25;
         mStage->shutter.phase = scene::ShutterPhase::End;
     }
@@ -190,7 +190,7 @@ class EmbeddedInstants : public test::EmbeddedTest {
     }
 
     Scene mScene;
-    std::optional<Teller> mTeller;
+    std::optional<MotionDescriber> mTeller;
     std::optional<BlurStage> mStage;
 };
 
@@ -199,7 +199,7 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
         for (const bool isTriangle : {false, true}) {
             mStage.reset();
             mScene = Scene();
-            start(Teller(kInstants));
+            start(MotionDescriber(kInstants));
             mStage->shutter.phase = phase;
             if (isTriangle)
                 mStage->giveTriangle();
@@ -213,10 +213,10 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
         }
 }
 
-TEST_F(EmbeddedInstants, WithoutHistoryAFirstFrameHasTheBitsOfThePlugin) {
+TEST_F(EmbeddedInstants, AFirstFrameWithoutHistoryHasTheBitsOfThePlugin) {
     MotionBlurSettings settings = resolved();
     settings.history = false;
-    start(Teller(kInstants), settings);
+    start(MotionDescriber(kInstants), settings);
     mStage->host.blurOfC = nullptr; // it has no other settings than the samples
     const StagedFrame first = draw(0);
     EXPECT_EQ(countFromLast(first), 0u);
@@ -224,9 +224,9 @@ TEST_F(EmbeddedInstants, WithoutHistoryAFirstFrameHasTheBitsOfThePlugin) {
 }
 
 TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
-    for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::Turning}) {
+    for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::PerFrame}) {
         const MotionBlurSettings settings = resolved(noise);
-        start(Teller(motion_blur::countInstants(settings)), settings);
+        start(MotionDescriber(motion_blur::countInstants(settings)), settings);
         mStage->host.blurOfC = nullptr;
         drawFirst();
         for (const int frame : {1, 2})
@@ -235,7 +235,7 @@ TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
 }
 
 TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
-    start(Teller(0, {0.0, 0.5, 1.0}));
+    start(MotionDescriber(0, {0.0, 0.5, 1.0}));
     drawFirst();
     const StagedFrame next = draw(1);
     EXPECT_GT(countFromLast(next), 0u);
@@ -244,7 +244,7 @@ TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
 }
 
 TEST_F(EmbeddedInstants, MoversWithoutTransformsFollowTheirMotionVectors) {
-    start(Teller(0, {0.0, 0.5, 1.0}));
+    start(MotionDescriber(0, {0.0, 0.5, 1.0}));
     mTeller->knowsMovers = false;
     const StagedFrame drawn = draw(0);
     EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 25.0);

@@ -378,7 +378,7 @@ TEST_F(EmbeddedRefusals, EachBadArgumentIsNamed) {
     ASSERT_TRUE(mBlur->record(dropped.commands(), 0, inputs, settings).ok());
     EXPECT_FALSE(record().ok());
     EXPECT_TRUE(mBlur->markDone(0).ok());
-    EXPECT_TRUE(record().ok()) << "markDone() tells of the one that was dropped";
+    EXPECT_TRUE(record().ok()) << "markDone() reports the dropped one";
 }
 
 TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
@@ -399,10 +399,10 @@ TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
     expectNamed(record(), "exposureShare is -1");
 }
 
-TEST_F(EmbeddedRefusals, WithoutAMethodWhatDrawsInPlaceOfResolvedIsToldOnce) {
-    std::string told;
+TEST_F(EmbeddedRefusals, TheDefaultMethodInPlaceOfResolvedIsReportedOnce) {
+    std::string reported;
     HostDevice host = describeHost();
-    host.message = [&](std::string_view sentence) { told += sentence; };
+    host.message = [&](std::string_view sentence) { reported += sentence; };
     mBlur = create(host);
     settings = {};
     bool readsMotions = false;
@@ -414,16 +414,16 @@ TEST_F(EmbeddedRefusals, WithoutAMethodWhatDrawsInPlaceOfResolvedIsToldOnce) {
     for (int again = 0; again < 2; ++again) {
         EXPECT_TRUE(record().ok());
         EXPECT_FALSE(readsMotions);
-        EXPECT_EQ(told, once);
+        EXPECT_EQ(reported, once);
     }
     const HostCameraKey key = makeKey();
     inputs.motion.keys = {&key, 1};
     EXPECT_TRUE(record().ok());
     EXPECT_TRUE(readsMotions);
-    EXPECT_EQ(told, once);
+    EXPECT_EQ(reported, once);
 }
 
-TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {
+TEST_F(EmbeddedRefusals, MissingInputsOfResolvedAreNamed) {
     settings = settingsOf("resolved");
     settings.secondRaster = true;
     inputs.entityId = mHost->ids();
@@ -573,23 +573,25 @@ TEST_F(EmbeddedRefusals, NumbersThatAreNoneLeaveAFinitePicture) {
 /// Messages while an object is created, records and is destroyed.
 class EmbeddedCare : public EmbeddedRefusals {
   protected:
-    /// An object whose message goes to mTold.
-    void createTold(bool checksInputs) {
+    /// An object whose message goes to mReported.
+    void createWithMessages(bool checksInputs) {
         HostDevice host = describeHost();
         host.checksInputs = checksInputs;
         host.message = [this](std::string_view sentence) {
-            mTold.emplace_back(sentence);
+            mReported.emplace_back(sentence);
             if (mOnSentence)
                 mOnSentence();
         };
         mBlur = create(host);
-        mTold.clear();
+        mReported.clear();
     }
 
-    [[nodiscard]] size_t countTold(const char* part) const {
-        return size_t(std::count_if(mTold.begin(), mTold.end(), [&](const std::string& one) {
-            return one.find(part) != std::string::npos;
-        }));
+    [[nodiscard]] size_t countReported(const char* part) const {
+        return size_t(std::count_if(
+            mReported.begin(),
+            mReported.end(),
+            [&](const std::string& one) { return one.find(part) != std::string::npos; }
+        ));
     }
 
     void TearDown() override {
@@ -597,32 +599,34 @@ class EmbeddedCare : public EmbeddedRefusals {
         EmbeddedRefusals::TearDown();
     }
 
-    std::vector<std::string> mTold;
+    std::vector<std::string> mReported;
     std::function<void()> mOnSentence;
 };
 
-TEST_F(EmbeddedCare, WhatIsUnsaidOfImagesIsAskedForOnceBeforeTheyAreUsed) {
-    createTold(true);
+TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
+    createWithMessages(true);
     inputs.color.usage = inputs.output.usage = 0;
     for (int again = 0; again < 2; ++again)
         submitCleared([&](VkCommandBuffer commands) {
             EXPECT_TRUE(mBlur->record(commands, 0, inputs, settings).ok());
-            EXPECT_EQ(countTold("not said"), 1u) << "once, before its commands are submitted";
+            EXPECT_EQ(countReported("not said"), 1u) << "once, before its commands are submitted";
         });
     EXPECT_EQ(
-        countTold("motion blur check: the usage of color, output, and the samples of color, output,"
-                  " motionDepth are not said"),
+        countReported(
+            "motion blur check: the usage of color, output, and the samples of color, output,"
+            " motionDepth are not said"
+        ),
         1u
     );
-    createTold(true);
+    createWithMessages(true);
     inputs = makeInputs();
     for (motion_blur::HostImage* image : {&inputs.color, &inputs.motionDepth, &inputs.output})
         image->samples = VK_SAMPLE_COUNT_1_BIT;
     EXPECT_TRUE(record().ok());
-    EXPECT_EQ(countTold("not said"), 0u) << "all is said";
+    EXPECT_EQ(countReported("not said"), 0u) << "all is said";
 }
 
-TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsAskedAbout) {
+TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
     constexpr uint32_t kSide = 160;
     const test::HostFrame large(device(), 3 * kSide, 2 * kSide);
     const test::HostFrame right(device(), kSide, kSide);
@@ -636,18 +640,18 @@ TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsAskedAbout) {
             const core::Status done = mBlur->record(commands, 0, inputs, settings);
             EXPECT_TRUE(done.ok()) << done.error().message;
         });
-        return countTold("the extent of color, output is not said");
+        return countReported("the extent of color, output is not said");
     };
-    createTold(true);
+    createWithMessages(true);
     EXPECT_EQ(countAsked(), 1u);
     EXPECT_EQ(countAsked(), 1u) << "once";
-    createTold(true);
+    createWithMessages(true);
     inputs.color.extent = inputs.output.extent = {3 * kSide, 2 * kSide};
     inputs.color.area.extent = inputs.output.area.extent = {kSide, kSide};
     EXPECT_EQ(countAsked(), 0u);
 }
 
-TEST_F(EmbeddedCare, AHostInCIsAskedForItsOwnFields) {
+TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {
     std::string all;
     ShutterBlurDevice described = test::describeForC(device());
     described.checksInputs = VK_TRUE;
@@ -677,20 +681,20 @@ TEST_F(EmbeddedCare, AHostInCIsAskedForItsOwnFields) {
 
 TEST_F(EmbeddedCare, CallsOfASecondThreadOrWithinACallbackAreRefused) {
     std::string within;
-    std::string beside;
+    std::string concurrent;
     const auto call = [&](std::string& message) {
         const core::Status done = mBlur->markDone(0);
         message = done ? "" : done.error().message;
     };
-    createTold(true);
+    createWithMessages(true);
     mOnSentence = [&] {
         call(within);
-        std::thread([&] { call(beside); }).join();
+        std::thread([&] { call(concurrent); }).join();
     };
     EXPECT_TRUE(record().ok());
     mOnSentence = nullptr;
     EXPECT_NE(within.find("called within a callback of its own"), std::string::npos) << within;
-    EXPECT_NE(beside.find("another thread is in a call"), std::string::npos) << beside;
+    EXPECT_NE(concurrent.find("another thread is in a call"), std::string::npos) << concurrent;
     EXPECT_TRUE(mBlur->markDone(0).ok()) << "alone again";
 }
 
@@ -724,15 +728,15 @@ TEST_F(EmbeddedCare, TwoThreadsThatRecordAtOnceGetPicturesOrSentences) {
     EXPECT_GT(recorded, 0);
 }
 
-TEST_F(EmbeddedCare, AnObjectThatGoesTooEarlySaysSoByItsMessage) {
-    createTold(false);
+TEST_F(EmbeddedCare, DestroyingAnObjectTooEarlyIsReported) {
+    createWithMessages(false);
     gpu::Frame dropped(device()); // never submitted
     dropped.begin();
     mHost->recordClears(dropped.commands());
     ASSERT_TRUE(mBlur->record(dropped.commands(), 0, inputs, settings).ok());
     mBlur.reset();
-    EXPECT_EQ(mTold.size(), 1u);
-    EXPECT_EQ(countTold("destroyed while the GPU has frame 0"), 1u);
+    EXPECT_EQ(mReported.size(), 1u);
+    EXPECT_EQ(countReported("destroyed while the GPU has frame 0"), 1u);
 }
 
 } // namespace

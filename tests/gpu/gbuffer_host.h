@@ -65,7 +65,7 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "host"; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
         return {true, "it is looked at"};
     }
 
@@ -162,7 +162,7 @@ class HostOfTheGBuffer : public render::PostEffect {
         motion_blur::HostInputs given = inputs;
         given.output = byC.output();
         given.responsePoints = responseForC;
-        const InputsForC told(given);
+        const InputsForC reported(given);
         ShutterBlurSettings settings = shutterBlurDefaultSettings();
         settings.method = mSettings.method->name;
         settings.sampleCount = mSettings.sampleCount;
@@ -171,7 +171,8 @@ class HostOfTheGBuffer : public render::PostEffect {
         settings.values = &value;
         settings.valueCount = 1;
         ASSERT_EQ(
-            shutterBlurRecord(blurOfC, commands, 0, &told.inputs, &settings), SHUTTER_BLUR_SUCCESS
+            shutterBlurRecord(blurOfC, commands, 0, &reported.inputs, &settings),
+            SHUTTER_BLUR_SUCCESS
         ) << shutterBlurGetMessage();
         byC.recordReadback(commands);
     }
@@ -182,7 +183,7 @@ class HostOfTheGBuffer : public render::PostEffect {
 
 /// The camera when the shutter closes, and, as the one before, when it opens.
 [[nodiscard]] inline motion_blur::HostCameras
-tellCameras(const scene::World& world, const extract::ViewRequest& view) {
+declareCameras(const scene::World& world, const extract::ViewRequest& view) {
     const scene::ExposureMotion moves(world, view.camera, view.exposure);
     const auto& camera = world.registry.get<scene::Camera>(view.camera);
     const auto viewAt = [&](double s) { return glm::inverse(moves.worldFromCamera(s)); };
@@ -199,14 +200,14 @@ tellCameras(const scene::World& world, const extract::ViewRequest& view) {
 }
 
 /// Describes the engine's scene as a host would.
-class Teller {
+class MotionDescriber {
   public:
     /// \param instantCount of the method
     /// \param times of the keys besides the raster instant; empty: the instants
-    explicit Teller(uint32_t instantCount, std::vector<double> times = {})
+    explicit MotionDescriber(uint32_t instantCount, std::vector<double> times = {})
         : mInstantCount(instantCount), mTimes(std::move(times)) {}
 
-    void tell(
+    void declare(
         const scene::World& world,
         const render::PostContext& context,
         motion_blur::HostMotion& motion
@@ -222,7 +223,7 @@ class Teller {
                  glm::inverse(moves.worldFromCamera(s)),
                  extract::makeProjection(camera, moves.cameraYFov(s), context.view)}
             );
-        tellMovers(context.frame, moves, times, exposure.rasterTime);
+        declareMovers(context.frame, moves, times, exposure.rasterTime);
         mResponse = scene::computeResponseTable(exposure.shutter.response);
         motion.keys = mKeys;
         motion.rowCount = uint32_t(context.frame.worldFromObject.size());
@@ -250,7 +251,7 @@ class Teller {
     }
 
     /// All rows, whether they move or not.
-    void tellMovers(
+    void declareMovers(
         const extract::ExtractedFrame& frame,
         const scene::ExposureMotion& moves,
         const std::vector<double>& times,
@@ -334,9 +335,9 @@ class BlurStage {
     }
 
     /// With each frame of the host's.
-    void tellMotion(Teller& teller) {
-        host.describeMotion = [this, &teller](const render::PostContext& context, auto& motion) {
-            teller.tell(mScene.world, context, motion);
+    void declareMotion(MotionDescriber& describer) {
+        host.describeMotion = [this, &describer](const render::PostContext& context, auto& motion) {
+            describer.declare(mScene.world, context, motion);
         };
     }
 

@@ -48,7 +48,7 @@ class LensFilters : public test::GpuTest, public testing::WithParamInterface<con
 
         depth_of_field::DepthOfField depthOfField(device());
         depthOfField.configure({&depth_of_field::getFilter(GetParam()), mTaps});
-        EXPECT_TRUE(depthOfField.ask(effect.facts).run);
+        EXPECT_TRUE(depthOfField.decide(effect.facts).run);
         depthOfField.extract(context);
         depthOfField.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);
@@ -132,7 +132,7 @@ TEST_P(LensFilters, ABrightConstantStaysUnderHugeCirclesInPicturesOfAllSizes) {
 }
 
 TEST_P(LensFilters, AFarPointOfLightBecomesADiscOfTheLensesRadiusAndKeepsItsLight) {
-    mTaps = depth_of_field::kMostTaps;
+    mTaps = depth_of_field::kMaxTaps;
     constexpr double kRadius = 9.0;
     image::Image point = test::makePicture(128, 128, 0.0f);
     for (uint32_t c = 0; c < 4; ++c)
@@ -158,7 +158,7 @@ TEST_P(LensFilters, AFarPointOfLightBecomesADiscOfTheLensesRadiusAndKeepsItsLigh
 }
 
 TEST_P(LensFilters, ANearEdgeCoversWhatIsSharpByTheShareOfItsDisc) {
-    mTaps = depth_of_field::kMostTaps;
+    mTaps = depth_of_field::kMaxTaps;
     constexpr uint32_t kSize = 128;
     constexpr double kRadius = 10.0;
     const auto isNear = [](uint32_t x) { return x < kSize / 2; };

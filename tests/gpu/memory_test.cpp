@@ -101,7 +101,7 @@ std::vector<uint32_t> copyValues(const gpu::Buffer& buffer) {
     return {values, values + 4};
 }
 
-TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
+TEST_F(Memory, NonCoherentMemoryIsFlushedAndInvalidated) {
     gpu::DeviceOptions options;
     options.validate = true;
     auto opened = test::openFaulty(options, "SHUTTER_FAULT_HIDE", "hostCoherent");
@@ -263,7 +263,7 @@ TEST_F(TransientPool, TheBlockGrowsAndIsGivenBackWhole) {
     EXPECT_EQ(device().living(), mBefore);
 }
 
-TEST_F(TransientPool, NothingIsKeptForPicturesOfAnotherSize) {
+TEST_F(TransientPool, ImagesOfAnotherSizeAreFreed) {
     graph::TransientPool pool(device());
     pool.keepFor(640, 360);
     realize(pool, 5, 4096);

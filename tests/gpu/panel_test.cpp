@@ -79,13 +79,13 @@ class PanelOnWindow : public test::GpuTest {
         mFacts.views = mViews;
     }
 
-    game::PanelWishes draw(
+    game::PanelRequests draw(
         app::Ui& ui, game::Panel& panel, game::PlaySettings& settings, const app::InputState& input
     ) {
         ui.begin(input, mSize, 1.0, 1.0 / 30.0);
-        const game::PanelWishes wishes = panel.draw(mFacts, settings);
+        const game::PanelRequests requests = panel.draw(mFacts, settings);
         ui.end();
-        return wishes;
+        return requests;
     }
 
     /// Folds the panel's headers; the panel must have been drawn once.
@@ -108,7 +108,7 @@ class PanelOnWindow : public test::GpuTest {
     game::PanelFacts mFacts;
 };
 
-TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
+TEST_F(PanelOnWindow, AnUntouchedPanelChangesNoSetting) {
     app::Ui ui(device());
     game::Panel panel;
     game::PlaySettings settings;
@@ -131,11 +131,11 @@ TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
         mFacts.left = given.split ? &mStatistics : nullptr;
         settings = given;
         for (int frame = 0; frame < 3; ++frame) {
-            const game::PanelWishes wishes = draw(ui, panel, settings, {});
+            const game::PanelRequests requests = draw(ui, panel, settings, {});
             EXPECT_FALSE(
-                wishes.save || wishes.load || wishes.togglePause || wishes.savePicture ||
-                wishes.singleStep || wishes.toggleRecording || wishes.toggleFullScreen ||
-                wishes.quit || wishes.speed
+                requests.save || requests.load || requests.togglePause || requests.savePicture ||
+                requests.singleStep || requests.toggleRecording || requests.toggleFullScreen ||
+                requests.quit || requests.speed
             );
         }
         const auto same = [&](auto rows, const auto& a, const auto& b) {
@@ -223,7 +223,7 @@ TEST_F(PanelOnWindow, LinesOverThePictureDoNotMeetInSmallWindows) {
             }
 }
 
-TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
+TEST_F(PanelOnWindow, ThePanelCoversThePictureAtItsPlaceOnly) {
     test::SceneBuilder scene;
     test::Stage stage(device(), scene);
     app::WindowOutput window(device());

@@ -183,7 +183,7 @@ TEST_F(Checkpoints, EachIsThePictureOfThatManyRays) {
     ASSERT_EQ(found.size(), 4u);
     for (const auto& [rays, picture] : found) {
         EXPECT_TRUE(test::sameBits(picture.color, draw(rays, {}, steps).color)) << rays;
-        EXPECT_EQ(picture.statistics.counters.at("rays a pixel"), rays);
+        EXPECT_EQ(picture.statistics.counters.at("rays per pixel"), rays);
         EXPECT_EQ(picture.statistics.counters.at("rays traced"), uint64_t(rays) * 40 * 30);
     }
     EXPECT_LT(found.at(1).statistics.wallMilliseconds, found.at(8).statistics.wallMilliseconds)
@@ -201,7 +201,7 @@ TEST_F(Checkpoints, AnEarlyStopShowsTheMeanOfTheRaysThatWereTraced) {
     const auto stopped = drawer.draw(mShot.world, picture, count, checkpoints);
     ASSERT_TRUE(stopped.ok());
     EXPECT_EQ(steps, 64u) << "the bar is full";
-    EXPECT_EQ(stopped.value().statistics.counters.at("rays a pixel"), 16u);
+    EXPECT_EQ(stopped.value().statistics.counters.at("rays per pixel"), 16u);
     const auto expected = drawer.draw(mShot.world, makeRays(16), count);
     EXPECT_TRUE(test::sameBits(stopped.value().color, expected.value().color));
     EXPECT_GT(stopped.value().statistics.measures.at("standard error"), 0.0);

@@ -59,7 +59,7 @@ PassParams makeParams(uint32_t taps) {
     return params;
 }
 
-TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgainAndMayGo) {
+TEST_F(Pipelines, APreparedPipelineIsNotMadeAgainAndMayBeDestroyed) {
     for (int i = 0; i < 4; ++i)
         gpu::LazyPipeline(device(), test::describeScalePipeline()).prepare(); // not waited for
     const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
@@ -75,10 +75,10 @@ TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgainAndMayGo) {
 
 TEST_F(Pipelines, AFewNumbersOfTapsAreKept) {
     const TapPipelines taps(device(), describeGather(), TapVariants::Made);
-    for (uint32_t count = 1; count <= TapPipelines::kMostVariants + 3; ++count)
+    for (uint32_t count = 1; count <= TapPipelines::kMaxVariants + 3; ++count)
         (void)taps.find(makeParams(count));
-    EXPECT_EQ(taps.variantCount(), TapPipelines::kMostVariants);
-    const gpu::Pipeline& last = taps.find(makeParams(TapPipelines::kMostVariants + 3));
+    EXPECT_EQ(taps.variantCount(), TapPipelines::kMaxVariants);
+    const gpu::Pipeline& last = taps.find(makeParams(TapPipelines::kMaxVariants + 3));
     const gpu::Pipeline& early = taps.find(makeParams(4));
     EXPECT_NE(&last, &early);
     EXPECT_EQ(&taps.find(makeParams(4)), &early) << "the oldest that is kept";
@@ -87,7 +87,7 @@ TEST_F(Pipelines, AFewNumbersOfTapsAreKept) {
     EXPECT_NE(&taps.find(table), &early) << "another kind of response";
 }
 
-TEST_F(Pipelines, WithoutVariantsOnePipelineServesAll) {
+TEST_F(Pipelines, OnePipelineServesAllTapCountsWithoutVariants) {
     const TapPipelines taps(device(), describeGather(), TapVariants::None);
     EXPECT_EQ(&taps.find(makeParams(3)), &taps.find(makeParams(15)));
     EXPECT_EQ(taps.variantCount(), 0u);
@@ -217,7 +217,7 @@ TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfItUnlessItIsInUse) 
     mOwn->giveUpPipeline(key, *kept);
 }
 
-TEST_F(KeptPipelines, WithoutTheOptionNothingIsKeptButTheLayoutOfTextures) {
+TEST_F(KeptPipelines, OnlyTheTextureLayoutIsCachedWithoutTheOption) {
     open(0);
     { const gpu::Pipeline gone(*mOwn, test::describeScalePipeline()); }
     EXPECT_FALSE(mOwn->keepsPipelines());

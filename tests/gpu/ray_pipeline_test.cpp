@@ -140,7 +140,7 @@ void addPane(test::SceneBuilder& scene) {
     scene.add(test::makeQuad(2.5, 2.5, material), {.position = {-0.2, 0, -1.5}});
 }
 
-TEST_F(RayPipelineTier, RevealsWhatQueriesReveal) {
+TEST_F(RayPipelineTier, RayPipelinesRevealTheSameAsQueries) {
     EXPECT_TRUE(lower().hasRays());
     EXPECT_FALSE(lower().hasRayQuery());
     EXPECT_EQ(lower().info().rayTier, gpu::RayTier::Pipeline);
@@ -156,13 +156,13 @@ TEST_F(RayPipelineTier, RevealsWhatQueriesReveal) {
     expectSamePictures(scene, {}, 150);
 }
 
-TEST_F(RayPipelineTier, RevealsWhatQueriesRevealWhereLaunchesReadNoSizeFromMemory) {
+TEST_F(RayPipelineTier, DirectLaunchesRevealTheSameAsQueries) {
     open("rayTracingPipelineTraceRaysIndirect");
     EXPECT_FALSE(lower().info().tracesIndirect);
     expectSamePictures(makeScene(), {}, 150);
 }
 
-TEST_F(RayPipelineTier, RevealsWhatQueriesRevealWithMoreMoversThanMasks) {
+TEST_F(RayPipelineTier, RayPipelinesRevealTheSameAsQueriesWithMoreMoversThanMasks) {
     test::SceneBuilder scene = makeScene();
     scene.moveCamera({.velocity = {0.05, 0, 0}});
     const auto green = scene.addColor({0, 0.6f, 0});

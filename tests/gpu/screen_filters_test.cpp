@@ -333,7 +333,7 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
     EXPECT_GT(picture.at(8, 23, 0), 0.1f) << "from below";
 }
 
-TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
+TEST_F(ScreenFilters, SurfacesAcrossADominantMotionKeepTheirColour) {
     // No weight but the target's own: static pixels, each at a different depth, next to one mover.
     Scene scene = makeScene();
     scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t y) {

@@ -195,7 +195,7 @@ TEST_F(Upload, ManyTexturesShareASubmission) {
     gpu::uploadTextures(device(), {});
 }
 
-TEST_F(Upload, WhatTheStagingBufferDoesNotHoldGoesInParts) {
+TEST_F(Upload, LargeUploadsAreSplitIntoParts) {
     // 3000 x 3000 texels are 36 MB: more than is staged at once, and the small ones lie around
     // them.
     (void)uploadAll(device(), {{5, 7}, {3000, 3000}, {9, 2}}, false, 2);

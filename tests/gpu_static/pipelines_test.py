@@ -12,7 +12,7 @@ import pipelines
 
 FAMILY = os.environ["SHUTTER_FAMILY"]
 TABLE = pathlib.Path(os.environ["SHUTTER_TABLE"])
-REPIN = "tests/gpu_static/pin.py build/release pins what is meant"
+REPIN = "tests/gpu_static/pin.py build/release pins intended changes"
 
 
 class Pipelines(unittest.TestCase):

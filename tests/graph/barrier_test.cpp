@@ -78,7 +78,7 @@ void storeThrice(Graph& graph, Access access) {
     });
 }
 
-TEST(Barriers, PassesThatWriteDisjointPartsHaveNoneBetweenThem) {
+TEST(Barriers, DisjointWritesHaveNoBarriersBetweenThem) {
     Graph graph;
     storeThrice(graph, Access::StorageWriteDisjoint);
     const Plan plan = mustCompile(graph);
@@ -92,7 +92,7 @@ TEST(Barriers, PassesThatWriteDisjointPartsHaveNoneBetweenThem) {
     EXPECT_TRUE(findHazards(graph, plan).empty());
 }
 
-TEST(Barriers, WhereTheyAreToBeOrderedDisjointWritesAreWritesLikeOthers) {
+TEST(Barriers, OrderedDisjointWritesHaveBarriersLikeOthers) {
     Graph graph;
     storeThrice(graph, Access::StorageWriteDisjoint);
     const auto plan = compile(graph, requireMemory, DisjointWrites::Ordered);

@@ -147,7 +147,7 @@ TEST(Alias, AnOutputIsNotOverwrittenAfterItsLastUse) {
     EXPECT_EQ(plan.blockBytes, 3 * kBytes);
 }
 
-TEST(Alias, WhatNobodyReadsAfterItsLastPassIsWantedNoMore) {
+TEST(Alias, ContentsNotReadAfterTheLastPassAreDiscarded) {
     Graph graph;
     ImageHandle depth;
     ImageHandle color;
@@ -167,7 +167,7 @@ TEST(Alias, WhatNobodyReadsAfterItsLastPassIsWantedNoMore) {
     EXPECT_TRUE(isWantedAfter(graph, plan, color.resource, 1)) << "an output";
 }
 
-TEST(Alias, WhatIsImportedStaysWanted) {
+TEST(Alias, ContentsOfImportedImagesArePreserved) {
     Graph graph;
     const gpu::Image target;
     ImageHandle image =
@@ -262,7 +262,7 @@ TEST(PackImages, ARivalInsideAnotherDoesNotDragTheNextOneBack) {
               << " and " << j;
 }
 
-TEST(Dump, AnEmptyGraphSaysSo) {
+TEST(Dump, TheDumpOfAnEmptyGraphIsMarked) {
     const Graph graph;
     EXPECT_EQ(
         dump(graph, mustCompile(graph)),
@@ -326,7 +326,7 @@ image memory: 3072 bytes, 3072 without sharing
     EXPECT_EQ(dump(graph, mustCompile(graph)), golden);
 }
 
-TEST(Dump, ABarrierThatOnlyWaitsSaysSo) {
+TEST(Dump, ABarrierThatOnlyWaitsIsMarked) {
     Graph graph;
     const ImageHandle v1 = store(graph, "one", makeImage(graph, "a"));
     addPass(graph, "look", PassKind::Compute, [&](PassBuilder& builder) {
@@ -340,7 +340,7 @@ TEST(Dump, ABarrierThatOnlyWaitsSaysSo) {
     EXPECT_NE(text.find("'look' (compute, side effect)"), std::string::npos) << text;
 }
 
-TEST(Dump, ALaunchOfARayTracingPipelineSaysSo) {
+TEST(Dump, ARayTracingLaunchIsMarked) {
     Graph graph;
     addPass(graph, "launch", PassKind::RayTracing, [](PassBuilder& builder) {
         builder.sideEffect();

@@ -11,7 +11,7 @@
 namespace shutter::graph {
 namespace {
 
-TEST(GraphError, ReadingWhatNoPassWrites) {
+TEST(GraphError, ReadingAnUnwrittenResourceIsRefused) {
     Graph graph;
     sample(graph, "tonemap", makeImage(graph, "color"));
     EXPECT_EQ(errorOf(graph), "pass 'tonemap' reads 'color' that no pass writes");
@@ -23,7 +23,7 @@ TEST(GraphError, ACulledPassIsCheckedToo) {
     EXPECT_EQ(errorOf(graph), "pass 'blur' reads 'color' that no pass writes");
 }
 
-TEST(GraphError, WritingAnOldVersion) {
+TEST(GraphError, WritingAnOldVersionIsRefused) {
     Graph graph;
     const ImageHandle v0 = makeImage(graph, "color");
     (void)store(graph, "first", v0);
@@ -31,7 +31,7 @@ TEST(GraphError, WritingAnOldVersion) {
     EXPECT_EQ(errorOf(graph), "pass 'second' writes an old version of 'color'");
 }
 
-TEST(GraphError, AHandleOfAnotherGraph) {
+TEST(GraphError, AHandleOfAnotherGraphIsRefused) {
     Graph yesterday;
     const ImageHandle old = store(yesterday, "draw", makeImage(yesterday, "color"));
     Graph today;
@@ -40,7 +40,7 @@ TEST(GraphError, AHandleOfAnotherGraph) {
     EXPECT_EQ(errorOf(today), "pass 'tonemap' uses a handle that this graph never gave out");
 }
 
-TEST(GraphError, AHandleNobodyMade) {
+TEST(GraphError, ADefaultConstructedHandleIsRefused) {
     Graph graph;
     (void)store(graph, "draw", ImageHandle{});
     EXPECT_EQ(errorOf(graph), "pass 'draw' uses a handle that this graph never gave out");
@@ -49,13 +49,13 @@ TEST(GraphError, AHandleNobodyMade) {
     EXPECT_EQ(errorOf(other), "an output uses a handle that this graph never gave out");
 }
 
-TEST(GraphError, AnOutputThatNoPassWrites) {
+TEST(GraphError, AnUnwrittenOutputIsRefused) {
     Graph graph;
     graph.markOutput(makeImage(graph, "color"));
     EXPECT_EQ(errorOf(graph), "output 'color' is written by no pass");
 }
 
-TEST(GraphError, AnOutputThatIsOverwritten) {
+TEST(GraphError, AnOverwrittenOutputIsRefused) {
     Graph graph;
     const ImageHandle v1 = store(graph, "draw", makeImage(graph, "color"));
     const ImageHandle v2 = store(graph, "smear", v1);
@@ -66,7 +66,7 @@ TEST(GraphError, AnOutputThatIsOverwritten) {
     );
 }
 
-TEST(GraphError, AttachmentsOfDifferentSize) {
+TEST(GraphError, AttachmentsOfDifferentSizeAreRefused) {
     Graph graph;
     addPass(graph, "geometry", PassKind::Raster, [&](PassBuilder& builder) {
         (void)builder.colorTarget(makeImage(graph, "color", 16), ClearColor::uints(0));
@@ -77,7 +77,7 @@ TEST(GraphError, AttachmentsOfDifferentSize) {
     );
 }
 
-TEST(GraphError, AttachmentsOfDifferentSampleCounts) {
+TEST(GraphError, AttachmentsOfDifferentSampleCountsAreRefused) {
     Graph graph;
     addPass(graph, "geometry", PassKind::Raster, [&](PassBuilder& builder) {
         (void)builder.colorTarget(makeImage(graph, "color", 16), ClearColor::uints(0));
@@ -89,7 +89,7 @@ TEST(GraphError, AttachmentsOfDifferentSampleCounts) {
     );
 }
 
-TEST(GraphError, AnImageOfSeveralSamplesThatIsStoredTo) {
+TEST(GraphError, StoringToAMultisampledImageIsRefused) {
     Graph graph;
     const auto image = graph.createImage("color", {16, 16, VK_FORMAT_R16G16B16A16_SFLOAT, 4});
     graph.markOutput(store(graph, "blur", image));
@@ -98,13 +98,13 @@ TEST(GraphError, AnImageOfSeveralSamplesThatIsStoredTo) {
     );
 }
 
-TEST(GraphError, ARasterPassWithoutAttachments) {
+TEST(GraphError, ARasterPassWithoutAttachmentsIsRefused) {
     Graph graph;
     addPass(graph, "geometry", PassKind::Raster, [](PassBuilder&) {});
     EXPECT_EQ(errorOf(graph), "raster pass 'geometry' has no attachment");
 }
 
-TEST(GraphError, TwoDepthTargets) {
+TEST(GraphError, TwoDepthTargetsAreRefused) {
     Graph graph;
     addPass(graph, "geometry", PassKind::Raster, [&](PassBuilder& builder) {
         (void)builder.depthTarget(makeImage(graph, "near", 16, kDepth), 0.0f);
@@ -113,7 +113,7 @@ TEST(GraphError, TwoDepthTargets) {
     EXPECT_EQ(errorOf(graph), "pass 'geometry' has two depth targets, 'near' and 'far'");
 }
 
-TEST(GraphError, AnAttachmentInAComputePass) {
+TEST(GraphError, AnAttachmentInAComputePassIsRefused) {
     Graph graph;
     addPass(graph, "blur", PassKind::Compute, [&](PassBuilder& builder) {
         (void)builder.colorTarget(makeImage(graph, "color"), std::nullopt);
@@ -124,7 +124,7 @@ TEST(GraphError, AnAttachmentInAComputePass) {
     );
 }
 
-TEST(GraphError, AnImageThatIsBuilt) {
+TEST(GraphError, BuildingAnImageIsRefused) {
     Graph graph;
     addPass(graph, "build", PassKind::Build, [&](PassBuilder& builder) {
         (void)builder.write(makeImage(graph, "color"), Access::AccelerationBuild);
@@ -132,7 +132,7 @@ TEST(GraphError, AnImageThatIsBuilt) {
     EXPECT_EQ(errorOf(graph), "pass 'build' uses 'color' as built, which an image cannot be");
 }
 
-TEST(GraphError, ABufferThatIsSampled) {
+TEST(GraphError, SamplingABufferIsRefused) {
     Graph graph;
     const BufferHandle buffer = graph.importBuffer("lights", fakeBuffer(1), 64);
     addPass(graph, "shade", PassKind::Compute, [&](PassBuilder& builder) {
@@ -143,7 +143,7 @@ TEST(GraphError, ABufferThatIsSampled) {
     );
 }
 
-TEST(GraphError, FormatsThatDoNotFitTheTarget) {
+TEST(GraphError, FormatsThatDoNotFitTheTargetAreRefused) {
     Graph graph;
     addPass(graph, "a", PassKind::Raster, [&](PassBuilder& builder) {
         (void)builder.depthTarget(makeImage(graph, "color"), 0.0f);
@@ -160,7 +160,7 @@ TEST(GraphError, FormatsThatDoNotFitTheTarget) {
     );
 }
 
-TEST(GraphError, AResourceUsedTwiceByOnePass) {
+TEST(GraphError, AResourceUsedTwiceByOnePassIsRefused) {
     Graph graph;
     const ImageHandle color = store(graph, "draw", makeImage(graph, "color"));
     (void)filter(graph, "blur", color, color);
@@ -181,7 +181,7 @@ TEST(GraphError, TheSameReadTwiceIsOneRead) {
     EXPECT_EQ(graph.passes()[1].uses.size(), 1u);
 }
 
-TEST(GraphError, ReadingWithAnAccessThatWritesAndTheReverse) {
+TEST(GraphError, AccessesThatContradictTheirUseAreRefused) {
     Graph graph;
     const ImageHandle color = store(graph, "draw", makeImage(graph, "color"));
     addPass(graph, "a", PassKind::Compute, [&](PassBuilder& builder) {
@@ -197,7 +197,7 @@ TEST(GraphError, ReadingWithAnAccessThatWritesAndTheReverse) {
     );
 }
 
-TEST(GraphError, AnImageOfNoSizeOrNoFormat) {
+TEST(GraphError, AnImageWithoutSizeOrFormatIsRefused) {
     Graph graph;
     (void)store(graph, "draw", makeImage(graph, "color", 0));
     EXPECT_EQ(errorOf(graph), "image 'color' is 0 x 0");
@@ -206,7 +206,7 @@ TEST(GraphError, AnImageOfNoSizeOrNoFormat) {
     EXPECT_EQ(errorOf(other), "image 'color' has no format");
 }
 
-TEST(GraphError, OneImageImportedUnderTwoNames) {
+TEST(GraphError, AnImageImportedUnderTwoNamesIsRefused) {
     Graph graph;
     const gpu::Image image;
     for (const char* name : {"screen", "target"})
@@ -214,7 +214,7 @@ TEST(GraphError, OneImageImportedUnderTwoNames) {
     EXPECT_EQ(errorOf(graph), "'screen' and 'target' import the same image");
 }
 
-TEST(GraphError, OneBufferImportedUnderTwoNamesIsFineUntilOneIsWritten) {
+TEST(GraphError, ABufferImportedUnderTwoNamesIsValidUntilOneIsWritten) {
     Graph graph;
     (void)graph.importBuffer("a", fakeBuffer(1), 64);
     const BufferHandle b = graph.importBuffer("b", fakeBuffer(1), 64);
@@ -268,7 +268,7 @@ std::string* obtain(Kept& kept, int key, int& made) {
     return kept.add(key, "made " + std::to_string(++made));
 }
 
-TEST(KeptObjects, WhatComesBackIsNotMadeAnew) {
+TEST(KeptObjects, AReusedKeyCreatesNoNewObject) {
     Kept kept;
     int made = 0;
     for (int round = 0; round < 10; ++round) {
@@ -289,7 +289,7 @@ TEST(KeptObjects, ARoundUsesEachObjectOnce) {
     EXPECT_EQ(made, 2);
 }
 
-TEST(KeptObjects, ThoseUnusedForLongestAreDroppedAndThoseInUseNever) {
+TEST(KeptObjects, TheLongestUnusedObjectsAreDroppedAndNeverThoseInUse) {
     Kept kept;
     int made = 0;
     for (const int key : {1, 2, 3}) {
@@ -305,7 +305,7 @@ TEST(KeptObjects, ThoseUnusedForLongestAreDroppedAndThoseInUseNever) {
     EXPECT_EQ(*used, "made 1") << "addresses stay";
 }
 
-TEST(KeptObjects, WhatNobodyUsedForSomeRoundsIsDropped) {
+TEST(KeptObjects, ObjectsUnusedForSomeRoundsAreDropped) {
     Kept kept;
     int made = 0;
     kept.beginRound();

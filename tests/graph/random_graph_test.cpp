@@ -293,7 +293,7 @@ TEST(RandomGraphs, TheOrderRespectsEveryDependence) {
     EXPECT_GT(moved, 0u) << "no frame needed another order than the declared one";
 }
 
-TEST(RandomGraphs, NothingThatStaysNeedsWhatWasCulled) {
+TEST(RandomGraphs, NoRemainingPassDependsOnACulledOne) {
     size_t culled = 0;
     forEachFrame([&](const Graph& graph, const Plan& plan) {
         culled += plan.culled.size();

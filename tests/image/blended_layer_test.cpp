@@ -199,7 +199,7 @@ TEST_F(BlendedLayerLaw, AMoverBetweenTwoPanesHidesTheFarOneAlone) {
     EXPECT_LT(measure(scene, "sharp"), 40.0);
 }
 
-TEST_F(BlendedLayerLaw, WhatAPaneAndAMoverCoverTogetherIsNotTakenApart) {
+TEST_F(BlendedLayerLaw, JointCoverageByAPaneAndAMoverIsNotSeparated) {
     // Glass that moves with the surfaces that it covers: compositing means would mix them.
     SceneBuilder scene = makeWall();
     addBox(scene, {.position = {0, 0, -2.6}, .velocity = {2.4, 0, 0}});
@@ -262,7 +262,7 @@ TEST_F(BlendedLayerLaw, GlassOnAMoverThatComesNearerIsNotHiddenByIt) {
     EXPECT_GT(measure(scene, "resolved"), 38.0);
 }
 
-TEST_F(BlendedLayerLaw, OfAsManyPartsAsInstantsEachLiesOverWhatIsBehindItThen) {
+TEST_F(BlendedLayerLaw, APartPerInstantIsCompositedOverTheBackgroundOfItsInstant) {
     SceneBuilder scene = makeWall();
     addBox(scene, {.position = {0, 0, -2.6}, .velocity = {2.4, 0, 0}});
     scene.add(
@@ -381,7 +381,7 @@ TEST_F(BlendedLayerLaw, AFrameAfterOneThatHadThePaneInItsRasterDoesNotSeeItTwice
     EXPECT_TRUE(changed) << "the pane leaves the raster between two frames";
 }
 
-TEST_F(BlendedLayerLaw, BeforeAStillWallItIsTheMeanOfItsInstants) {
+TEST_F(BlendedLayerLaw, ALayerOverAStaticWallIsTheMeanOfItsInstants) {
     SceneBuilder scene = makeWall();
     addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0.4, 0}});
     for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle}) {
@@ -417,7 +417,7 @@ TEST_F(BlendedLayerLaw, GlassThatNothingShinesThroughIsTheSamePaneWithoutBlendin
     );
 }
 
-TEST_F(BlendedLayerLaw, WithoutAnExposureOrAtACutThePictureIsTheSharpOne) {
+TEST_F(BlendedLayerLaw, ThePictureIsSharpWithoutAnExposureOrAtACut) {
     SceneBuilder scene = makeWall();
     addBox(scene, {.position = {0, 0, -3}, .velocity = {-1.5, 0, 0}});
     addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0, 0}});

@@ -389,7 +389,7 @@ bool mentions(const render::FrameResult& frame, const std::string& words) {
     return frame.dump.find(words) != std::string::npos;
 }
 
-TEST_F(DeformFrame, WithoutDeformedMeshesNothingIsBentAndWithoutRaysNoLevelIsBuilt) {
+TEST_F(DeformFrame, NoDeformationRunsWithoutDeformedMeshesAndNoBlasIsBuiltWithoutRays) {
     const SceneBuilder scene = makeBending(false);
     BendingFrames frames(device(), scene);
     for (const auto& frame : {frames.at(0.0, "sharp"), frames.at(0.0), frames.at(0.0, "truth")}) {

@@ -68,7 +68,7 @@ class DemandLaw : public test::RayTest {
     }
 };
 
-TEST_F(DemandLaw, BeforeTheSkyNoRayIsTracedAndThePictureIsTheSame) {
+TEST_F(DemandLaw, NoRayIsTracedInFrontOfTheSkyAndThePictureIsTheSame) {
     const SceneBuilder scene = makeSphere();
     const auto frame = draw(scene, {});
     EXPECT_GT(frame.statistics.counters.at("pixels masked"), 100u);
@@ -81,7 +81,7 @@ TEST_F(DemandLaw, BeforeTheSkyNoRayIsTracedAndThePictureIsTheSame) {
     EXPECT_TRUE(test::sameBits(frame.color, traced.color));
 }
 
-TEST_F(DemandLaw, WithoutRaysHybridIsSkippedBeforeTheSkyToo) {
+TEST_F(DemandLaw, HybridWithoutRaysIsSkippedInFrontOfTheSkyToo) {
     gpu::DeviceOptions options;
     options.validate = true;
     options.bestTier = gpu::RayTier::None;
@@ -104,7 +104,7 @@ TEST_F(DemandLaw, WithoutRaysHybridIsSkippedBeforeTheSkyToo) {
     EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
 }
 
-TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
+TEST_F(DemandLaw, UnusedResourcesAreFreedAfterAWhile) {
     const SceneBuilder scene = makeCrossing();
     Frames frames(device(), scene);
     for (int i = 0; i < 2; ++i)
@@ -224,7 +224,7 @@ SceneBuilder makePane() {
 
 class PassCount : public test::RayTest {};
 
-TEST_F(PassCount, AllThatAMethodMustFindEmptyIsClearedInOnePass) {
+TEST_F(PassCount, AllClearedResourcesOfAMethodShareOnePass) {
     const SceneBuilder scene = makePane();
     for (const char* method : {"gather", "hybrid", "resolved", "adaptive"})
         EXPECT_EQ(
@@ -232,7 +232,7 @@ TEST_F(PassCount, AllThatAMethodMustFindEmptyIsClearedInOnePass) {
         ) << method;
 }
 
-TEST_F(PassCount, WhatNobodyReadsIsNotReadBack) {
+TEST_F(PassCount, UnreadCountersAreNotReadBack) {
     const SceneBuilder scene = makePane();
     Frames frames(device(), scene);
     const auto check = [&](const char* method, const char* counter, const char* pass) {
@@ -348,7 +348,8 @@ class StandIn : public test::RayTest {
                 ready = draw(frames, "hybrid", UntilReady::StandIn);
             EXPECT_FALSE(standsIn(ready)) << "hybrid never took over";
             EXPECT_TRUE(test::sameBits(ready.color, waited.color));
-            EXPECT_FALSE(test::sameBits(ready.color, gathered.color)) << "the scene tells nothing";
+            EXPECT_FALSE(test::sameBits(ready.color, gathered.color))
+                << "the scene shows no difference";
         }
         EXPECT_EQ(holding.device()->validationMessageCount(), 0u);
     }
@@ -363,7 +364,7 @@ TEST_F(StandIn, GatherDrawsUntilBothKindsOfRevealArePreparedByRayPipelines) {
     checkTier(gpu::RayTier::Pipeline);
 }
 
-TEST_F(StandIn, WherePipelinesAreMadeWhenFirstUsedNoneStandsIn) {
+TEST_F(StandIn, NoFallbackMethodRunsIfPipelinesAreMadeOnFirstUse) {
     const SceneBuilder scene = makePane();
     Frames frames(device(), scene);
     EXPECT_FALSE(standsIn(draw(frames, "hybrid", UntilReady::StandIn)));

@@ -89,7 +89,7 @@ struct PastScene {
     }
 };
 
-TEST_F(HistoryLaw, WhatAppearedOrWasTeleportedIsSharpForThatFrame) {
+TEST_F(HistoryLaw, AppearedOrTeleportedEntitiesAreSharpForThatFrame) {
     const std::vector<std::pair<std::string, std::function<void(PastScene&)>>> events = {
         {"appeared", [](PastScene& s) { scene::appear(s.builder.world, s.mover, 0.95); }},
         {"appeared before the shutter opened",
@@ -111,7 +111,7 @@ TEST_F(HistoryLaw, WhatAppearedOrWasTeleportedIsSharpForThatFrame) {
     }
 }
 
-TEST_F(HistoryLaw, WhatAppearsDuringTheExposureStandsInItsPlaceFromThenOn) {
+TEST_F(HistoryLaw, EntitiesThatAppearDuringTheExposureAreVisibleFromThenOn) {
     PastScene scene({0, 0, 0});
     Stage stage(device(), scene.builder);
     const image::Image there = draw(stage, "sharp");
@@ -124,7 +124,7 @@ TEST_F(HistoryLaw, WhatAppearsDuringTheExposureStandsInItsPlaceFromThenOn) {
     expectMean(stage, there, 1.0, without);
 }
 
-TEST_F(HistoryLaw, WhatIsHiddenDuringTheExposureIsThereUntilThen) {
+TEST_F(HistoryLaw, EntitiesHiddenDuringTheExposureAreVisibleUntilThen) {
     PastScene scene({0, 0, 0});
     scene.builder.world.registry.remove<scene::LinearVelocity>(scene.mover);
     scene.builder.world.registry.get<scene::LocalTransform>(scene.mover).transform.translation.x =
@@ -142,7 +142,7 @@ TEST_F(HistoryLaw, WhatIsHiddenDuringTheExposureIsThereUntilThen) {
     expectMean(stage, there, 0.0, without);
 }
 
-TEST_F(HistoryLaw, WhatAppearsUnderAMovingCameraKeepsTheCamerasBlur) {
+TEST_F(HistoryLaw, EntitiesThatAppearUnderAMovingCameraHaveTheCamerasBlur) {
     PastScene scene({0, 0.3, 0});
     Stage stage(device(), scene.builder);
     scene::appear(scene.builder.world, scene.mover, 0.95);
@@ -266,7 +266,7 @@ class JumpLaw : public test::GpuTest {
     }
 };
 
-TEST_F(JumpLaw, WhatAppearsOrVanishesCoversItsPlaceForItsShareOfTheExposure) {
+TEST_F(JumpLaw, AppearingOrVanishingEntitiesCoverTheirPlaceForTheirShareOfTheExposure) {
     for (const float hidden : {0.0f, 1.0e-5f})
         for (const bool appears : {true, false}) {
             JumpScene scene({16.0, 8.0, 0.0});
@@ -307,7 +307,7 @@ TEST_F(JumpLaw, AStepAtTheFramesOwnTimeHasNotBeenSeenYet) {
     }
 }
 
-TEST_F(JumpLaw, WhatIsInTwoPlacesIsOnNoWayBetweenThem) {
+TEST_F(JumpLaw, AJumpingEntityIsNotBlurredBetweenItsPlaces) {
     struct Case {
         std::string what;
         Interpolation interpolation;
@@ -457,7 +457,7 @@ class JumpInMotion : public JumpLaw {
     ecs::Entity mMover;
 };
 
-TEST_F(JumpInMotion, WhatMovesBeforeAndAfterItsJumpIsBlurredInBothPlaces) {
+TEST_F(JumpInMotion, AMoverThatJumpsIsBlurredInBothPlaces) {
     test::Stage stage(device(), mScene);
     const image::Image truth = stage.render(shotOfMotion("accumulate")).color;
     const auto nearness = [&](std::string_view method) {

@@ -86,7 +86,7 @@ TEST_F(KeptFrame, AStillFrameWritesNeitherRowsNorMotionsAndBuildsNothing) {
     EXPECT_TRUE(test::sameBits(first.color, second.color));
 }
 
-TEST_F(KeptFrame, OnlyWhatMovesIsWritten) {
+TEST_F(KeptFrame, OnlyMovingRowsAreWritten) {
     const Crowd crowd(40);
     KeptFrames frames(device(), crowd.scene);
     expectWritten(frames.hybrid(0.0), 41, 1);
@@ -100,7 +100,7 @@ TEST_F(KeptFrame, OnlyWhatMovesIsWritten) {
     EXPECT_TRUE(test::sameBits(second.color, paused.color));
 }
 
-TEST_F(KeptFrame, ManyThatStandStillHaveATopLevelThatIsBuiltOnce) {
+TEST_F(KeptFrame, ManyStaticInstancesHaveATlasThatIsBuiltOnce) {
     Crowd crowd(rays::kStaticTlasInstances);
     KeptFrames frames(device(), crowd.scene);
     const auto first = frames.hybrid(0.0);
@@ -243,7 +243,7 @@ Sequence draw(gpu::Device& device, const std::string& method, uint32_t framesInF
 
 class FramesInFlight : public test::RayTest {};
 
-TEST_F(FramesInFlight, GiveThePicturesAndCountersOfFramesOneByOne) {
+TEST_F(FramesInFlight, OverlappingFramesGiveThePicturesAndCountersOfSequentialOnes) {
     for (const std::string method : {"hybrid", "resolved"}) {
         const Sequence alone = draw(device(), method, 1);
         ASSERT_EQ(alone.colors.size(), size_t{kFrames});

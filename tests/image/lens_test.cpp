@@ -207,7 +207,7 @@ TEST_F(LensLaw, APointOfLightIsADiscOfTheThinLenssDiameter) {
     }
 }
 
-TEST_F(LensLaw, BeforeTheFocusTheOpeningIsUpsideDown) {
+TEST_F(LensLaw, TheOpeningIsInvertedInFrontOfTheFocus) {
     const CameraLens lens{
         .fStop = 0.0125, .focusDistance = 3.0, .blades = 3}; // a corner to the right
     // At both depths; E[x^3] of a triangle is a 40th of its circumradius's cube.

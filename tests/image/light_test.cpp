@@ -154,7 +154,7 @@ TEST_F(ShadowLaw, ShadowsNearTheCameraAreInTheFinestMap) {
     EXPECT_GT(compareMapsWithRays(stage).psnr, 45.0);
 }
 
-TEST_F(ShadowLaw, SpotsAndPointLightsCastThemToo) {
+TEST_F(ShadowLaw, SpotAndPointLightsCastShadows) {
     for (const auto& [kind, cone] :
          {std::pair{scene::LightKind::Spot, 0.9f},
           {scene::LightKind::Spot, 1.4f},
@@ -202,7 +202,7 @@ double measureGain(gpu::Device& device, const SceneBuilder& scene, uint32_t inst
     return after - before;
 }
 
-TEST_F(ShadowLaw, AShadowOfWhatMovesIsTheMeanOverTheExposure) {
+TEST_F(ShadowLaw, AMoversShadowIsTheMeanOverTheExposure) {
     SceneBuilder scene = makeFloor({.position = {2, 8, 1}, .velocity = {2.0, 0, 0.5}});
     scene.addSun({-0.25, -1.0, -0.1}, 3.0f);
     EXPECT_GT(measureGain(device(), scene), 25.0);
@@ -250,7 +250,7 @@ TEST_F(ShadowLaw, ShadowsByALampAndASpotAreNearTheMean) {
     }
 }
 
-TEST_F(ShadowLaw, WhatGoesBelowAReceiverShadesItNoLonger) {
+TEST_F(ShadowLaw, ACasterBelowAReceiverDoesNotShadeIt) {
     // Along the light: at the first of four instants far above the floor, then far below it, and in
     // the picture at none.
     const dvec3 way = glm::normalize(dvec3(-1.0, -0.3, 0.0));
@@ -266,7 +266,7 @@ TEST_F(ShadowLaw, WhatGoesBelowAReceiverShadesItNoLonger) {
     EXPECT_GT(image::computePsnr(blurred.color, stage.render(shot).color), 45.0);
 }
 
-TEST_F(ShadowLaw, WhatMovesHasItsOwnShadowOfTheRasterInstant) {
+TEST_F(ShadowLaw, MoversCastTheShadowOfTheRasterInstant) {
     SceneBuilder scene;
     scene.setPerspective(0.9, 0.05);
     const auto white = scene.addMaterial({});
@@ -285,7 +285,7 @@ TEST_F(ShadowLaw, WhatMovesHasItsOwnShadowOfTheRasterInstant) {
     EXPECT_EQ(sharp.color.pixels, stage.render(shot).color.pixels);
 }
 
-TEST_F(ShadowLaw, AShadowOfWhatDeformsIsNearTheMean) {
+TEST_F(ShadowLaw, ADeformingCastersShadowIsNearTheMean) {
     SceneBuilder scene = makeFloor({.position = {0, 100, 0}});
     const std::array joints{
         test::Placement{.position = {2.0, 5.5, 1.0}},
@@ -295,7 +295,7 @@ TEST_F(ShadowLaw, AShadowOfWhatDeformsIsNearTheMean) {
     EXPECT_GT(measureGain(device(), scene), 10.0);
 }
 
-TEST_F(ShadowLaw, WhatCastsNoShadowCostsNothing) {
+TEST_F(ShadowLaw, EntitiesWithoutShadowsCostNothing) {
     const auto count = [](const render::FrameResult& frame) {
         return test::countPasses(frame, "shadow");
     };
@@ -347,7 +347,7 @@ SceneBuilder makeBoxes() {
     return scene;
 }
 
-TEST_F(EnvironmentLaw, OneOfOneColourIsTheBackgroundAndTheAmbientLight) {
+TEST_F(EnvironmentLaw, AUniformEnvironmentEqualsBackgroundAndAmbientLight) {
     const math::vec3 color(0.5f, 0.25f, 0.75f);
     const SceneBuilder plain = makeBoxes();
     SceneBuilder surrounded = makeBoxes();
@@ -411,7 +411,7 @@ TEST_F(EnvironmentLaw, RaysAndTheMeanOfInstantsSeeTheSame) {
     EXPECT_GT(image::computePsnr(rays.color, instants.color), 40.0);
 }
 
-TEST_F(EnvironmentLaw, RevealsFindItBehindWhatMoves) {
+TEST_F(EnvironmentLaw, RevealsFindTheEnvironmentBehindMovers) {
     // A box of one colour before bright stripes of the sky and dark ones.
     SceneBuilder scene;
     scene.setPerspective(1.0);

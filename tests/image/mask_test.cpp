@@ -345,7 +345,7 @@ TEST_F(TransparencyLaw, BlendedSurfacesLeaveTheIntermediatesOfWhatLiesBehind) {
             << name;
 }
 
-TEST_F(TransparencyLaw, WhatIsRevealedIsSeenThroughTheBlendedSurfacesBeforeIt) {
+TEST_F(TransparencyLaw, RevealedSurfacesAreSeenThroughBlendedOnes) {
     SceneBuilder without = makeWall();
     addPanes(without);
     SceneBuilder with = makeWall();

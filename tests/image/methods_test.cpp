@@ -48,7 +48,7 @@ bool hasBlurPass(const render::FrameResult& result) {
     });
 }
 
-TEST_F(IdentityLaw, WithoutExposureMotionScaleOrReachThePictureIsTheSharpOneBitForBit) {
+TEST_F(IdentityLaw, ZeroExposureMotionScaleOrReachGivesTheSharpPictureBitForBit) {
     struct Case {
         dvec3 velocity;
         const char* reason;
@@ -267,7 +267,7 @@ test::Shot rosadoShot(std::string_view method) {
     return {.method = method, .exposureSeconds = 0.5, .background = math::vec3(0.2f, 0.4f, 0.6f)};
 }
 
-TEST_F(Rosado2007, WhereOnlyTheCameraMovesItIsOwnVelocity) {
+TEST_F(Rosado2007, RosadoEqualsOwnVelocityUnderCameraMotionOnly) {
     const test::Placement moving{
         .velocity = {0.4, 0.1, -0.3}, .angularVelocity = {0.02, 0.1, 0.05}};
     const test::SceneBuilder scene = makeBoxInSky(moving, dvec3(0.0));
@@ -278,7 +278,7 @@ TEST_F(Rosado2007, WhereOnlyTheCameraMovesItIsOwnVelocity) {
     EXPECT_GT(image::computePsnr(result.color, expected.color), 55.0);
 }
 
-TEST_F(Rosado2007, AnObjectThatMovesBeforeAStillCameraStaysSharp) {
+TEST_F(Rosado2007, AMovingObjectStaysSharpUnderAStaticCamera) {
     const test::SceneBuilder scene = makeBoxInSky({}, {0.8, 0.2, 0.0});
     const auto sharp = test::renderOnce(device(), scene, rosadoShot("sharp"));
     const auto result = test::renderOnce(device(), scene, rosadoShot("rosado2007"));
@@ -369,7 +369,7 @@ TEST_F(InstantNoises, APostThatGoesFarLeavesGrainInsteadOfCopies) {
         measureSmear(test::renderOnce(device(), scene, shotOf("resolved")).color, truth);
     EXPECT_GT(plain.banding, 1.0) << "the shot bands";
     EXPECT_LT(plain.noise, 0.01);
-    for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::Turning}) {
+    for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::PerFrame}) {
         const auto drawn = test::renderOnce(device(), scene, shotOf("resolved", noise));
         const SmearError error = measureSmear(drawn.color, truth);
         EXPECT_LT(error.banding, 0.3 * plain.banding);
@@ -377,7 +377,7 @@ TEST_F(InstantNoises, APostThatGoesFarLeavesGrainInsteadOfCopies) {
     }
 }
 
-TEST_F(InstantNoises, RaysHaveItToo) {
+TEST_F(InstantNoises, NoiseAppliesToRaysToo) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "adaptive needs ray queries";
     const test::SceneBuilder scene = makePost();
@@ -401,7 +401,7 @@ TEST_F(InstantNoises, RaysHaveItToo) {
 }
 
 // Instants less than a pixel apart leave no copies.
-TEST_F(InstantNoises, WhatMovesLittleHasNoNoise) {
+TEST_F(InstantNoises, SlowMoversHaveNoNoise) {
     const test::SceneBuilder scene = makePost(12.0);
     EXPECT_TRUE(test::sameBits(
         test::renderOnce(device(), scene, shotOf("resolved", InstantNoise::Fixed)).color,
@@ -409,7 +409,7 @@ TEST_F(InstantNoises, WhatMovesLittleHasNoNoise) {
     ));
 }
 
-TEST_F(InstantNoises, ASurfaceOfOneColourKeepsIt) {
+TEST_F(InstantNoises, NoiseDoesNotChangeAUniformSurface) {
     test::SceneBuilder scene;
     scene.setPixelView(kHeight);
     scene.add(
@@ -427,7 +427,7 @@ TEST_F(InstantNoises, ASurfaceOfOneColourKeepsIt) {
 }
 
 // Blocks of one plane and pixels that search each for itself take the same instants.
-TEST_F(InstantNoises, LooksOfBlocksAreThoseOfTheirPixels) {
+TEST_F(InstantNoises, BlockLookupsEqualThoseOfTheirPixels) {
     test::SceneBuilder scene;
     scene.setPixelView(kHeight);
     const scene::AssetIndex waves = scene.addTextured(scene.addWaveTexture(), true);
@@ -452,12 +452,12 @@ TEST_F(InstantNoises, AFrameHasTheSameBitsHoweverItWasReached) {
     std::vector<image::Image> turning;
     std::vector<image::Image> fixed;
     for (const int number : numbers) {
-        turning.push_back(whole.at(number, InstantNoise::Turning));
+        turning.push_back(whole.at(number, InstantNoise::PerFrame));
         fixed.push_back(whole.at(number, InstantNoise::Fixed));
     }
     NumberedFrames resumed(device(), scene); // as after a stop
     for (const size_t i : {3u, 1u, 0u}) {
-        EXPECT_TRUE(test::sameBits(resumed.at(numbers[i], InstantNoise::Turning), turning[i]));
+        EXPECT_TRUE(test::sameBits(resumed.at(numbers[i], InstantNoise::PerFrame), turning[i]));
         EXPECT_TRUE(test::sameBits(resumed.at(numbers[i], InstantNoise::Fixed), fixed[i]));
     }
     EXPECT_TRUE(test::sameBits(turning[1], fixed[1])) << "frame 0 is not turned";
@@ -478,7 +478,7 @@ TEST_F(InstantNoises, TurningHasOtherGrainInEachFrameWhichVanishesInTheMean) {
         return test::renderOnce(device(), scene, shot).color;
     };
     const test::Shot fixed = shotOf("resolved", InstantNoise::Fixed);
-    const test::Shot turning = shotOf("resolved", InstantNoise::Turning);
+    const test::Shot turning = shotOf("resolved", InstantNoise::PerFrame);
     const auto first = draw(0, fixed);
     EXPECT_TRUE(test::sameBits(first, draw(1, fixed)));
     EXPECT_FALSE(test::sameBits(first, draw(1, turning)));

@@ -110,7 +110,7 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         const auto path =
             std::filesystem::path(SHUTTER_SHARED_DIR) / "scenes/gltf-samples" / GetParam().file;
         if (!std::filesystem::exists(path))
-            GTEST_SKIP() << "the scenes are not beside the project (" << path.filename() << ")";
+            GTEST_SKIP() << "the scenes are not available (" << path.filename() << ")";
         auto loaded = gltf::loadGltf(path);
         ASSERT_TRUE(loaded) << loaded.error().message;
         mScene.world = std::move(loaded.value().world);

@@ -146,7 +146,7 @@ void expectMotion(gpu::Device& device, const Case& known, double longerThanPx) {
     }
 }
 
-TEST_F(MotionLaw, WhatMovesOrIsSeenByAMovingCameraMovesByTheClosedForm) {
+TEST_F(MotionLaw, MotionOfObjectsAndCameraFollowsTheClosedForm) {
     const auto oblique = glm::angleAxis(0.9, glm::normalize(dvec3(0.3, 1.0, 0.2)));
     const Placement still{.position = {0, 0, -2.5}};
     const Placement pan{.angularVelocity = {0.1, 0.4, 0.2}};

@@ -87,7 +87,7 @@ ParticleEmitter makeShower() {
     return emitter;
 }
 
-TEST_F(ParticleLaw, AreWhereTheClosedFormHasThemAtEveryTime) {
+TEST_F(ParticleLaw, ParticlesFollowTheClosedFormAtEveryTime) {
     PixelScene scene;
     ParticleEmitter emitter = makeOne(12.0, {20.0, 10.0, 0.0}, 0.0);
     emitter.gravity = dvec3(0.0, -8.0, 0.0);
@@ -116,7 +116,7 @@ TEST_F(ParticleLaw, AStreaksLightIsThatOfItsInstantsInEveryMethod) {
     }
 }
 
-TEST_F(ParticleLaw, OneThatIsBornOrDiesInTheExposureIsSeenForItsShareOfIt) {
+TEST_F(ParticleLaw, AParticleBornOrDyingInTheExposureIsVisibleForItsShare) {
     const auto measure = [&](double born, double life) {
         PixelScene scene;
         ParticleEmitter emitter = makeOne(12.0, {}, born);
@@ -197,7 +197,7 @@ TEST_F(ParticleLaw, MirroredAndReversedOnesGiveMirroredAndEqualPictures) {
     EXPECT_GE(image::computePsnr(draw(1.0, -1.0, ShutterPhase::Start), right), 70.0);
 }
 
-TEST_F(ParticleLaw, ACameraThatPansBlursThemAsItDoesTheWorld) {
+TEST_F(ParticleLaw, ACameraPanBlursParticlesLikeTheWorld) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.moveCamera({.angularVelocity = {0.0, 1.5, 0.0}});
@@ -231,7 +231,7 @@ TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {
     EXPECT_LE(image::computePsnr(stage.render(makeShot("sharp")).color, truth), 20.0);
 }
 
-TEST_F(ParticleLaw, ThroughHolesOfAPictureShowsWhatLiesBehind) {
+TEST_F(ParticleLaw, HolesOfAParticlesPictureShowTheBackground) {
     PixelScene scene;
     scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].onParticles = true;
     scene.add(
@@ -269,7 +269,7 @@ TEST_F(ParticleLaw, AWayThatBendsOrGoesIntoAWallIsSeenAsAtItsInstants) {
     EXPECT_GT(compare(false), 50.0);
 }
 
-TEST_F(ParticleLaw, WhatLiesBeforeThemHidesThem) {
+TEST_F(ParticleLaw, SurfacesInFrontHideParticles) {
     for (const std::string_view method : {"sharp", "resolved"}) {
         PixelScene scene;
         scene.add(
@@ -383,7 +383,7 @@ TEST_F(ParticleLaw, InstantsAreLookedUpOnlyWhereSomethingOpaqueMoves) {
     EXPECT_FALSE(hasInstants(swept, "gather"));
 }
 
-TEST_F(ParticleLaw, SoftOnesFadeBeforeASurface) {
+TEST_F(ParticleLaw, SoftParticlesFadeInFrontOfASurface) {
     const auto measure = [&](double softMetres) {
         PixelScene scene;
         scene.add(test::makeQuad(60, 60, scene.addColor({0, 0, 0})), {.position = {0, 0, -10}});
@@ -397,7 +397,7 @@ TEST_F(ParticleLaw, SoftOnesFadeBeforeASurface) {
     EXPECT_NEAR(measure(4.0) / hard, 0.25, 2e-3);
 }
 
-TEST_F(ParticleLaw, WithoutOpacityOrSizeOrALifeNoBitChangesAndNoPassRuns) {
+TEST_F(ParticleLaw, ParticlesWithoutOpacitySizeOrLifeChangeNothing) {
     PixelScene scene;
     scene.add(
         test::makeQuad(40, 40, scene.addColor({0.2f, 0.4f, 0.6f})), {.position = {0, 0, -50}}
@@ -433,7 +433,7 @@ TEST_F(ParticleLaw, AnExposureOf0IsTheSharpPicture) {
     EXPECT_TRUE(test::sameBits(stage.render(shot).color, sharp));
 }
 
-TEST_F(ParticleLaw, OneThatStandsStillIsItsSharpPictureToAHalfStep) {
+TEST_F(ParticleLaw, AStaticParticleIsItsSharpPictureToAHalfStep) {
     PixelScene scene;
     scene.emit(makeOne(14.0, {}), {3.0, 2.0, -10.0});
     Stage stage(device(), scene);
@@ -472,7 +472,7 @@ TEST_F(ParticleLaw, LitOnesSendBackTheLightFromEverywhereAndOfLamps) {
     EXPECT_NEAR(test::renderOnce(device(), scene, shot).color.at(48, 32, 1), 0.9f, 4e-3f);
 }
 
-TEST_F(ParticleLaw, AfterTenHoursThePictureIsThatOfTheBeginning) {
+TEST_F(ParticleLaw, ThePictureAfterTenHoursIsThatOfTheBeginning) {
     // Without randomness, since it depends on the start of a span.
     const auto drawAt = [&](double hours, std::string_view method) {
         PixelScene scene;

@@ -102,7 +102,7 @@ class Program : public test::RayTest {
 struct Reference {
     const char* test;
     const char* name;
-    bool isStill = false;
+    bool isStatic = false;
     const char* method = "accumulate";
 };
 
@@ -143,7 +143,7 @@ TEST_P(References, TheTruthIsThePictureOfCycles) {
     const fs::path references = kShared / "references";
     const std::string name = reference.name;
     if (!fs::exists(references / (name + ".json")))
-        GTEST_SKIP() << "the references are not beside the project (" << name << ".json)";
+        GTEST_SKIP() << "the references are not available (" << name << ".json)";
     const auto settings = nlohmann::json::parse(readText(references / (name + ".json")));
     const auto number = [&](const char* key) {
         return fmt::format("{:.17g}", settings.at(key).get<double>());
@@ -168,13 +168,13 @@ TEST_P(References, TheTruthIsThePictureOfCycles) {
          "--time",
          number("frame_time"),
          "--exposure",
-         reference.isStill ? "0" : number("exposure"),
+         reference.isStatic ? "0" : number("exposure"),
          "--phase",
          word("phase"),
          "--size",
          fmt::format("{}x{}", settings.at("width").get<int>(), settings.at("height").get<int>())}
     );
-    const Image expected = read(references / (name + (reference.isStill ? ".still.exr" : ".exr")));
+    const Image expected = read(references / (name + (reference.isStatic ? ".still.exr" : ".exr")));
     ASSERT_EQ(rendered.width, expected.width);
     ASSERT_EQ(rendered.height, expected.height);
     ASSERT_EQ(rendered.channels, expected.channels);
@@ -240,7 +240,7 @@ TEST_F(Paper, RaysBeatGatherBeatsSharpOnTheVase) {
 TEST_F(Paper, RaysBeatGatherBeatsSharpInThePinkRoom) {
     const fs::path scene = kShared / "scenes" / "pink-room" / "pink_room_lite_animated.glb";
     if (!fs::exists(scene))
-        GTEST_SKIP() << "the Pink Room is not beside the project";
+        GTEST_SKIP() << "the Pink Room is not available";
     expectThePapersOrder(scene, {"--clip", "vase_slide_fast_linear", "--time", "0.12"});
 }
 
@@ -304,13 +304,13 @@ TEST_F(Program, RaysStopAtTheErrorThatIsWished) {
         return nlohmann::json::parse(readText(stats)).at("pictures").at(0);
     };
     const nlohmann::json early = draw("0.5");
-    const int rays = early.at("counters").at("rays a pixel").get<int>();
+    const int rays = early.at("counters").at("rays per pixel").get<int>();
     EXPECT_LT(rays, 64);
     EXPECT_GE(rays, 16);
     EXPECT_LE(early.at("measures").at("standard error").get<double>(), 0.5);
     EXPECT_EQ(early.at("counters").at("rays traced").get<int>(), rays * 400 * 225);
     const nlohmann::json never = draw("0.0000001");
-    EXPECT_EQ(never.at("counters").at("rays a pixel").get<int>(), 64);
+    EXPECT_EQ(never.at("counters").at("rays per pixel").get<int>(), 64);
     EXPECT_GT(never.at("measures").at("standard error").get<double>(), 0.0000001);
 }
 
@@ -324,7 +324,7 @@ class Denoised : public Program {
     }
 };
 
-TEST_F(Denoised, IsNearerToTheTruthThanItsRaysAre) {
+TEST_F(Denoised, DenoisedPictureIsNearerToTheTruthThanItsRays) {
     const Image truth = draw("accumulate", "128");
     ASSERT_EQ(truth.width, 640u);
     // Stratified rays need the filter less the more they are.
@@ -337,7 +337,7 @@ TEST_F(Denoised, IsNearerToTheTruthThanItsRaysAre) {
     EXPECT_GT(computePsnr(draw("denoised", "64"), truth), 42.0) << "many rays converge";
 }
 
-TEST_F(Denoised, LeavesWhatStandsStillAsTheRaysSawIt) {
+TEST_F(Denoised, DenoisingLeavesStaticSurfacesUnchanged) {
     const Image rays = draw("denoised", "1", false);
     const Image filtered = draw("denoised", "1");
     const Image truth = draw("truth", "1");

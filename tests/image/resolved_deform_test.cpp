@@ -261,7 +261,7 @@ TEST_F(ResolvedDeform, ASkinBeforeAWallBlursUnderACameraThatPans) {
     EXPECT_LT(compareWithTruth(scene, shotOf("sharp")), 24.0) << "the shot is hard";
 }
 
-TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreToldApart) {
+TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreSeparate) {
     SceneBuilder scene = makeRoom();
     addWaver(scene, 8.0, {9, 0, 0});
     const auto other = addWaver(scene, -8.0, {-9, 0, 0.4});
@@ -451,7 +451,7 @@ SceneBuilder makeHard(SceneBuilder scene, const HardShape& shape, double open) {
     return scene;
 }
 
-TEST_F(ResolvedDeform, WhatCollapsesTurnsInsideOutOrIsDegenerateIsFiniteAndBetterThanFiltered) {
+TEST_F(ResolvedDeform, CollapsingInvertedOrDegenerateShapesAreFiniteAndBetterThanFiltered) {
     for (const HardShape& shape : kHardShapes)
         for (const auto phase : {scene::ShutterPhase::Start, scene::ShutterPhase::End}) {
             const bool isEnd = phase == scene::ShutterPhase::End;
@@ -574,7 +574,7 @@ std::set<std::string> listDeformingPasses(const render::FrameResult& frame) {
     return names;
 }
 
-TEST_F(ResolvedDeform, WhereNothingDeformsNothingOfItIsInTheFrame) {
+TEST_F(ResolvedDeform, AFrameWithoutDeformationHasNoPassesForIt) {
     Shot shot = shotOf("resolved");
     shot.settings.secondRaster = true;
     const auto addCrowd = [](SceneBuilder& scene, double turn) {
@@ -585,15 +585,15 @@ TEST_F(ResolvedDeform, WhereNothingDeformsNothingOfItIsInTheFrame) {
             test::addSkinned(scene, test::makeStrip(0.6, 1.6, 16, scene.addWaves()), joints);
         }
     };
-    const auto drawBeside = [&](double turn, bool hasCrowd) {
+    const auto drawAdjacent = [&](double turn, bool hasCrowd) {
         SceneBuilder scene = makeTumbler(makeRoom(), false);
         if (hasCrowd)
             addCrowd(scene, turn);
         return test::renderOnce(device(), scene, shot);
     };
-    const auto without = drawBeside(0.0, false);
-    const auto still = drawBeside(0.0, true);
-    const auto moving = drawBeside(5.0, true);
+    const auto without = drawAdjacent(0.0, false);
+    const auto still = drawAdjacent(0.0, true);
+    const auto moving = drawAdjacent(5.0, true);
     EXPECT_EQ(listDeformingPasses(without), std::set<std::string>());
     EXPECT_EQ(listDeformingPasses(still), std::set<std::string>());
     const std::set<std::string> all{
@@ -606,7 +606,7 @@ TEST_F(ResolvedDeform, WhereNothingDeformsNothingOfItIsInTheFrame) {
     const auto countSearched = [](const render::FrameResult& frame) {
         return frame.statistics.counters.at("blocks mixed");
     };
-    EXPECT_EQ(countSearched(still), countSearched(without)) << "what is static is not searched";
+    EXPECT_EQ(countSearched(still), countSearched(without)) << "static surfaces are not searched";
     EXPECT_GT(countSearched(moving), countSearched(without));
     EXPECT_EQ(still.statistics.transientBytes, without.statistics.transientBytes);
     EXPECT_GT(moving.statistics.transientBytes, without.statistics.transientBytes);

@@ -115,7 +115,7 @@ TEST_F(ResolvedHistory, TheFrameBeforeIsLookedUp) {
     EXPECT_FALSE(test::sameBits(drawn.color, drawAlone(scene).color));
 }
 
-TEST_F(ResolvedHistory, NothingFromBeforeACutIsLookedUp) {
+TEST_F(ResolvedHistory, FramesBeforeACutAreNotLookedUp) {
     Scene scene;
     HistoryFrames frames(device(), scene);
     (void)frames.at(-1);
@@ -127,7 +127,7 @@ TEST_F(ResolvedHistory, NothingFromBeforeACutIsLookedUp) {
     EXPECT_TRUE(test::sameBits(frames.at(1).color, HistoryFrames(device(), scene).at(1).color));
 }
 
-TEST_F(ResolvedHistory, NothingOfAnotherCameraIsLookedUp) {
+TEST_F(ResolvedHistory, FramesOfAnotherCameraAreNotLookedUp) {
     Scene scene;
     const ecs::Entity other = scene.world().registry.create();
     scene.world().registry.add(other, scene::LocalTransform{{.translation = {0.3, 0, 0.5}}});
@@ -144,7 +144,7 @@ TEST_F(ResolvedHistory, NothingOfAnotherCameraIsLookedUp) {
     ));
 }
 
-TEST_F(ResolvedHistory, AFrameThatFollowsNoneOfItsKindFindsWhatItWouldHaveFound) {
+TEST_F(ResolvedHistory, AFrameAfterAnotherMethodFindsTheSameHistory) {
     const FrameOptions small = {.width = 96, .height = 64};
 
     struct Before {
@@ -192,7 +192,7 @@ TEST_F(ResolvedHistory, AFrameThatIsDrawnAgainFindsTheSameAgain) {
     EXPECT_TRUE(test::sameBits(resumed.color, drawFollowing(scene, {}, 1).color));
 }
 
-TEST_F(ResolvedHistory, WhereNothingIsLookedUpNothingIsDrawnForIt) {
+TEST_F(ResolvedHistory, NoHistoryIsDrawnIfNoneIsLookedUp) {
     Scene scene;
     HistoryFrames frames(device(), scene);
     EXPECT_FALSE(drawsLast(frames.at(0, {.exposureSeconds = 0.0})));
@@ -242,7 +242,7 @@ TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
     );
 }
 
-TEST_F(ResolvedHistory, WhatNoFrameLooksUpIsGivenBackAfterAWhile) {
+TEST_F(ResolvedHistory, UnusedHistoryIsFreedAfterAWhile) {
     Scene scene;
     HistoryFrames frames(device(), scene);
     (void)frames.at(0, {.method = "gather"});
@@ -266,7 +266,7 @@ float findReddest(const image::Image& picture) {
     return most;
 }
 
-TEST_F(ResolvedHistory, WhatIsNoLongerThereLeavesNoGhost) {
+TEST_F(ResolvedHistory, RemovedEntitiesLeaveNoGhost) {
     const auto teleportAway = [](Scene& scene) {
         scene::teleport(
             scene.world(), scene.box, {.translation = {0, 0, 50}}, -0.75 / kFramesPerSecond
@@ -289,7 +289,7 @@ TEST_F(ResolvedHistory, WhatIsNoLongerThereLeavesNoGhost) {
     }
 }
 
-TEST_F(ResolvedHistory, WhatAppearsHasNoPastAndHidesNothingBefore) {
+TEST_F(ResolvedHistory, AppearingEntitiesHaveNoPastAndHideNothingBefore) {
     Scene scene;
     scene::hide(scene.world(), scene.box);
     HistoryFrames frames(device(), scene);

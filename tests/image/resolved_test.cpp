@@ -131,7 +131,7 @@ TEST_F(Resolved, EdgesInTwoRastersMakeNoMoverWider) {
     EXPECT_NEAR(greenOf(fenceShotOf("resolved")) / expected, 1.0, 0.01);
 }
 
-TEST_F(Resolved, WhatPassesTheCamerasPlaneIsNearTheTruth) {
+TEST_F(Resolved, SurfacesThatCrossTheCamerasPlaneAreNearTheTruth) {
     test::SceneBuilder scene;
     scene.setPerspective(1.4);
     scene.moveCamera({.velocity = {4.0, 0.0, -60.0}});
@@ -266,7 +266,7 @@ TEST_F(ResolvedLooks, PostsThatParallaxMovesAreNoPlaneWithTheWall) {
     );
 }
 
-TEST_F(ResolvedLooks, WhatStandsStillBeforeAMoverIsNotPaintedOver) {
+TEST_F(ResolvedLooks, StaticSurfacesInFrontOfAMoverAreNotPaintedOver) {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
     const scene::AssetIndex waves = scene.addTextured(scene.addWaveTexture(), true);
@@ -288,7 +288,7 @@ TEST_F(ResolvedLooks, WhatStandsStillBeforeAMoverIsNotPaintedOver) {
     EXPECT_EQ(test::computeMaxDifferenceWhere(drawn.color, sharp.color, isPost), 0.0);
 }
 
-TEST_F(ResolvedLooks, MoreInstantsThanLooksAreSearchedPixelByPixel) {
+TEST_F(ResolvedLooks, InstantsBeyondTheBlockLimitAreSearchedPerPixel) {
     test::Shot shot = shotOf("resolved");
     shot.settings.sampleCount = 33;
     const auto drawn =
@@ -392,7 +392,7 @@ class ResolvedCrowd : public test::GpuTest {
     }
 };
 
-TEST_F(ResolvedCrowd, IsNearerToTheTruthThanTheFiltersHoweverItAndTheCameraMove) {
+TEST_F(ResolvedCrowd, CrowdsAreNearerToTheTruthThanFiltersUnderAnyMotion) {
     for (const Crowd& crowd :
          {Crowd{.together = {8.0, 2.0, 0.0}},
           Crowd{.apart = 10.0},
@@ -436,7 +436,7 @@ class SecondRaster : public test::GpuTest {
     }
 };
 
-TEST_F(SecondRaster, ItShowsWhatTheOthersHide) {
+TEST_F(SecondRaster, TheSecondRasterShowsSurfacesHiddenInTheOthers) {
     const test::SceneBuilder scene = makeScene();
     const auto truth = test::renderOnce(device(), scene, shotOf("accumulate"));
     const auto without = test::renderOnce(device(), scene, shotOf("resolved"));
@@ -455,7 +455,7 @@ TEST_F(SecondRaster, ItShowsWhatTheOthersHide) {
     );
 }
 
-TEST_F(SecondRaster, ItIsTheBeginningWhereTheRasterIsTheEndAndTheOtherWayRound) {
+TEST_F(SecondRaster, TheSecondRasterIsAtTheOppositeEndOfTheExposure) {
     const test::SceneBuilder scene = makeScene();
     for (const auto phase : {scene::ShutterPhase::End, scene::ShutterPhase::Start}) {
         test::Shot shot = secondShot("resolved");
@@ -479,7 +479,7 @@ TEST_F(SecondRaster, AdaptiveWithoutRaysIsResolved) {
     EXPECT_TRUE(test::sameBits(resolved.color, adaptive.color));
 }
 
-TEST_F(SecondRaster, StillFramesAndMethodsThatLookNothingUpDrawNone) {
+TEST_F(SecondRaster, StaticFramesAndFiltersDrawNoSecondRaster) {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.add(test::makeQuad(8, 6, scene.addWaves()), {.position = {0, 0, -5}});

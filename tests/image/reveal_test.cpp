@@ -124,7 +124,7 @@ void addWall(SceneBuilder& scene) {
     scene.add(test::makeQuad(5, 4, scene.addWaves()), wall());
 }
 
-TEST_F(RevealLaw, WhatIsRevealedIsWhatRasterDrawsWithoutTheMover) {
+TEST_F(RevealLaw, RevealedSurfacesAreThoseOfARasterWithoutTheMover) {
     std::vector<RevealCase> cases = {
         {"a textured wall", addWall},
         {"a mirrored box, whose own front must not be lost, nor the back come through",
@@ -264,7 +264,7 @@ AddToScene bendingWall(const dvec3& scale) {
     };
 }
 
-TEST_F(RevealLaw, DeformedMeshesAreMetWhereRasterDrawsThemWithItsMotion) {
+TEST_F(RevealLaw, DeformedMeshesAreHitWhereTheRasterDrawsThemWithItsMotion) {
     const RevealCase cases[] = {
         {.name = "a bending wall", .background = bendingWall(dvec3(1)), .leastMotionPx = 2.0},
         {.name = "a mirrored single-sided wall",
@@ -365,7 +365,7 @@ TEST_F(RevealLaw, TheLuminanceTestPassesObjectsOfEqualLuminanceAndTheMeshTestDoe
     }
 }
 
-TEST_F(RevealLaw, BeforeTheSkyOnlyTheBackgroundColourIsRevealed) {
+TEST_F(RevealLaw, OnlyTheBackgroundColourIsRevealedInFrontOfTheSky) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     addOccluder(scene);

@@ -194,7 +194,7 @@ TEST_F(ShutterLaw, RaysAndInstantsAgreeUnderAnyResponse) {
     }
 }
 
-TEST_F(ShutterLaw, WhatIsConstantIsABoxBitForBitInEveryMethod) {
+TEST_F(ShutterLaw, AConstantResponseEqualsABoxBitForBitInEveryMethod) {
     const SceneBuilder scene = makePan();
     Stage stage(device(), scene);
     for (const std::string_view method : test::listRasterMethods(device())) {
@@ -208,7 +208,7 @@ TEST_F(ShutterLaw, WhatIsConstantIsABoxBitForBitInEveryMethod) {
     }
 }
 
-TEST_F(ShutterLaw, InsideAMoverTheFiltersSeeItWhenItsLightIsTaken) {
+TEST_F(ShutterLaw, FiltersInsideAMoverFollowTheResponse) {
     // A ramp of 1/400 per pixel that moves 24 px: a pixel's value is its mean sample position.
     constexpr double kMotion = 24.0;
     SceneBuilder scene;
@@ -342,7 +342,7 @@ bool isInside(const image::Image& ids, float id, uint32_t x, uint32_t y) {
     return true;
 }
 
-TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharpUnderALensThatZoomsToo) {
+TEST_F(ArtistLaw, AnExcludedMoverIsSharpInEveryMethodUnderAZoomToo) {
     ArtistScene scene;
     // A texture shows whatever is off its place.
     const ecs::Entity excluded = scene.builder.add(

@@ -110,7 +110,7 @@ class TaaLaw : public test::GpuTest {
     ecs::Entity mTiles;
 };
 
-TEST_F(TaaLaw, NothingStaysBehindWhatMoves) {
+TEST_F(TaaLaw, MoversLeaveNoGhosts) {
     addTiles({.position = {0, 0, -5}});
     // It ends at the picture's middle.
     const double speed = 9.0;
@@ -351,7 +351,7 @@ TEST_F(TaaEdge, ASilhouetteThatMovesByWholePixelsKeepsItsProfile) {
             ASSERT_NEAR(after.at(x - 2, y, 0), before.at(x, y, 0), 0.02f) << x << ' ' << y;
 }
 
-TEST_F(TaaEdge, WhatMovesWithTheCameraHasSmoothEdges) {
+TEST_F(TaaEdge, EntitiesThatMoveWithTheCameraHaveSmoothEdges) {
     slideCamera(2.0);
     addWall(math::vec3(0.05f), 9.0);
     addSquare(math::vec3(0.9f), kDistance, {mSpeed, 0, 0});
@@ -362,7 +362,7 @@ TEST_F(TaaEdge, WhatMovesWithTheCameraHasSmoothEdges) {
     }
 }
 
-TEST_F(TaaLaw, BetweenTurningSpokesWhatIsStaticKeepsItsMean) {
+TEST_F(TaaLaw, StaticSurfacesBetweenTurningSpokesKeepTheirMean) {
     addTiles({.position = {0, 0, -5}});
     const auto red = mScene.addColor({0.6f, 0.1f, 0.05f});
     std::vector<scene::Primitive> spokes;
@@ -383,7 +383,7 @@ TEST_F(TaaLaw, BetweenTurningSpokesWhatIsStaticKeepsItsMean) {
     );
 }
 
-TEST_F(TaaLaw, WhatWavesBetweenExposuresIsNotStatic) {
+TEST_F(TaaLaw, WavesBetweenExposuresAreNotStatic) {
     addTiles({.position = {0, 0, -5}});
     scene::VertexWaves waves;
     waves.waves = {{.displacement = {0.3, 0.2, 0}, .hertz = 2.3}};

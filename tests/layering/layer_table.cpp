@@ -304,8 +304,8 @@ std::string resolve(const Include& include, const FileExists& exists) {
     namespace fs = std::filesystem;
     const std::string asWritten = fs::path(include.target).lexically_normal().generic_string();
     if (include.quoted) {
-        const fs::path beside = fs::path(include.file).parent_path() / include.target;
-        const std::string candidate = beside.lexically_normal().generic_string();
+        const fs::path inFolder = fs::path(include.file).parent_path() / include.target;
+        const std::string candidate = inFolder.lexically_normal().generic_string();
         if (exists(candidate))
             return candidate;
     }

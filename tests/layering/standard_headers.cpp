@@ -126,8 +126,9 @@ bool isIntegerType(std::string_view name) {
 
 /// The file of the tree that an include names: in its folder, from the root or from shaders/.
 std::optional<std::string> findFile(const SourceTree& tree, const Include& include) {
-    const std::filesystem::path beside = std::filesystem::path(include.file).parent_path();
-    for (const auto& folder : {beside, std::filesystem::path(), std::filesystem::path("shaders")}) {
+    const std::filesystem::path sameFolder = std::filesystem::path(include.file).parent_path();
+    for (const auto& folder :
+         {sameFolder, std::filesystem::path(), std::filesystem::path("shaders")}) {
         std::string path = (folder / include.target).lexically_normal().generic_string();
         if (tree.contains(path))
             return path;

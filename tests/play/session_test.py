@@ -216,7 +216,7 @@ class Session(PlayCase):
                     self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
 
     def test_bad_input_is_told_in_one_sentence(self):
-        for arguments, status, told in (
+        for arguments, status, expected in (
             (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
             (["rally"], 2, "--no-window"),
             (["rally", "--script", "none.json"], 1, "none.json"),
@@ -225,7 +225,7 @@ class Session(PlayCase):
             with self.subTest(arguments=arguments):
                 result = self.run_shutter(arguments, display=False)
                 self.assertEqual(result.returncode, status, result.stderr)
-                self.assertIn(told, result.stderr)
+                self.assertIn(expected, result.stderr)
                 self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
 
 

@@ -38,7 +38,7 @@ METHODS = [
      [4, 8, 15, 32, 64], (116, 2.0), (28.6, 0.4)),
     ("hybrid", "Gather with ray-traced background", "Tan, Cui, Bhojan", "samples", 15, True,
      [4, 8, 15, 32, 64], (180, 2.2), (30.0, 0.4)),
-    ("denoised", "One ray a pixel, filtered", "Oberberger 2022", "rays", 1, True,
+    ("denoised", "One ray per pixel, filtered", "Oberberger 2022", "rays", 1, True,
      [1, 2, 4], (260, 130), (30.5, 1.2)),
     ("accumulate", "Mean of sharp frames", "Haeberli, Akeley 1990", "instants", 16, False,
      [1, 4, 16, 64], (3, 97), (22.0, 3.6)),

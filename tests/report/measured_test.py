@@ -83,7 +83,7 @@ class Measured(unittest.TestCase):
 
     def test_what_a_lens_sees(self):
         if not (ROOMS / "pink-room").exists():
-            self.skipTest("the rooms lie beside the project")
+            self.skipTest("the rooms are outside of the repository")
         methods = ["sharp", "near_far_lens", "lens_then_blur", "blur_then_lens"]
         results = self.measure("--suite", "lens", "--case", "joint", "--rooms", str(ROOMS), "--aa", "box",
                                "--methods", ",".join(["gather", *methods]), size="64x36", truth_samples=32)

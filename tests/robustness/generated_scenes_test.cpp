@@ -103,7 +103,7 @@ float measureParticles(const scene::World& world, ecs::Entity camera, const Benc
 
 class HardCase : public testing::TestWithParam<BenchCase> {};
 
-TEST_P(HardCase, LoadsWithoutAWarningAndMovesDuringItsExposure) {
+TEST_P(HardCase, EachCaseLoadsWithoutAWarningAndMovesDuringItsExposure) {
     const BenchCase& hardCase = GetParam();
     const scene::World world = writeAndLoad(hardCase.name, hardCase.build());
     const ecs::Entity* camera = findCamera(world, hardCase.camera);
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); }
 );
 
-TEST(ParticleCases, LoadWithoutAWarningAndEmitAsManyAsTheirNamesPromise) {
+TEST(ParticleCases, CasesLoadWithoutAWarningAndEmitTheNumberInTheirNames) {
     struct Promise {
         const char* name;
         GltfWriter (*build)();
@@ -154,7 +154,7 @@ TEST(ParticleCases, LoadWithoutAWarningAndEmitAsManyAsTheirNamesPromise) {
     }
 }
 
-TEST(ScalingScenes, HoldAsManyMovingEntitiesAsAskedFor) {
+TEST(ScalingScenes, ScenesHaveTheRequestedNumberOfMovingEntities) {
     for (const int count : {1, 2, 10, 101, 10'000}) {
         const scene::World world =
             writeAndLoad(fmt::format("entities_{}", count), buildEntitiesScene(count));
@@ -168,7 +168,7 @@ TEST(ScalingScenes, HoldAsManyMovingEntitiesAsAskedFor) {
     }
 }
 
-TEST(ScalingScenes, FewMoversHaveAsManyEntitiesAsAskedForOrOneThatStandsStill) {
+TEST(ScalingScenes, FewMoverScenesHaveTheRequestedEntitiesOrOneStaticOne) {
     for (const auto& [count, movers] :
          {std::pair{1, 0}, {1, 1}, {100, 7}, {101, 101}, {10'000, 10}})
         for (const bool merged : {false, true}) {
@@ -204,7 +204,7 @@ TEST(ScalingScenes, EntityCountsOutsideTheRangeAreClamped) {
     EXPECT_EQ(count(kMaxEntityCount + 1), size_t(kMaxEntityCount));
 }
 
-TEST(ScalingScenes, HoldAsManyTrianglesAsAskedForWithin2Percent) {
+TEST(ScalingScenes, ScenesHaveTheRequestedNumberOfTrianglesWithin2Percent) {
     for (const int count : {kMinTriangleCount, 10'000, 31'623, 100'000, 1'000'000}) {
         const scene::World world =
             writeAndLoad(fmt::format("triangles_{}", count), buildTrianglesScene(count));

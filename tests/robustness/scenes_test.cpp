@@ -54,7 +54,7 @@ void PrintTo(const Expectation& expectation, std::ostream* stream) {
 // The numbers of the table in shared/scenes/README.md.
 class ListedScene : public testing::TestWithParam<Expectation> {};
 
-TEST_P(ListedScene, HoldsTheTrianglesClipsAndPicturesOfTheReadme) {
+TEST_P(ListedScene, EachSceneHasTheTrianglesClipsAndPicturesOfTheReadme) {
     const Expectation& expected = GetParam();
     const fs::path path = kFolder / expected.file;
     if (!fs::exists(path))
@@ -106,7 +106,7 @@ void PrintTo(const Moving& moving, std::ostream* stream) {
 
 class DeformingScene : public testing::TestWithParam<Moving> {};
 
-TEST_P(DeformingScene, LoadsWithoutWarningsAndHoldsWhatTheFileSays) {
+TEST_P(DeformingScene, EachSceneLoadsWithoutWarningsWithTheContentsOfItsFile) {
     const Moving& expected = GetParam();
     const fs::path path = kFolder / expected.file;
     if (!fs::exists(path))

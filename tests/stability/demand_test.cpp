@@ -87,7 +87,7 @@ std::vector<SceneBuilder> loadRegions() {
 
 class Demand : public test::RayTest {};
 
-TEST_F(Demand, WhereNothingMovesOrIsExposedAFrameIsThatOfSharp) {
+TEST_F(Demand, AFrameWithoutMotionOrExposureIsThatOfSharp) {
     const std::pair<SceneBuilder, double> scenes[] = {
         {load(generator::buildVaseScene()), 0.0},
         {load(generator::buildMovingRegionScene(0, 0)), generator::kScalingExposureSeconds},
@@ -185,7 +185,7 @@ TEST_F(Demand, RaysAreTracedForMaskedPixelsAlone) {
     }
 }
 
-TEST_F(Demand, OfTenThousandEntitiesTheTenThatMoveAreWritten) {
+TEST_F(Demand, OnlyTheTenMoversOfTenThousandEntitiesAreWritten) {
     const SceneBuilder scene =
         load(generator::buildFewMoversScene(generator::kMaxEntityCount, 10, false));
     Frames frames(device(), scene);
@@ -302,7 +302,7 @@ std::string drawUseless(
     return dump;
 }
 
-TEST_F(Demand, LightThatASceneHasNoUseForHasNoPassAndNoImage) {
+TEST_F(Demand, UnusedLightsHaveNoPassAndNoImage) {
     for (const Useless& wanted : kUseless) {
         SCOPED_TRACE(wanted.name);
         const std::string plain = drawUseless(device(), wanted, false);

@@ -184,7 +184,7 @@ TEST_F(HardFilters, MotionThatIsNanOrInfiniteOrHasAnInfiniteLengthCountsAsNone) 
     holdAsStill(3e38f, 3e38f, ", length beyond a float");
 }
 
-TEST_F(HardFilters, StillPixelsStaySharpWhereNoTapWeighsAnything) {
+TEST_F(HardFilters, StaticPixelsStaySharpIfAllTapsHaveZeroWeight) {
     // Before one mover far behind them.
     GBuffer gbuffer = makeStill();
     forEachPixel([&](uint32_t x, uint32_t y) { gbuffer.setMotion(x, y, 0.0f, 0.0f, 3.0f); });

@@ -237,7 +237,7 @@ bool awaitDriverThreads(uint32_t wanted) {
     return countDriverThreads() == wanted;
 }
 
-TEST_F(HardFrames, OneDriverThreadAndTwoHaveTheSameBits) {
+TEST_F(HardFrames, FramesHaveTheSameBitsWithOneAndTwoDriverThreads) {
     const SceneBuilder scene = makeBusyScene();
     const auto hashOn = [&](gpu::Device& with) {
         Stage stage(with, scene);

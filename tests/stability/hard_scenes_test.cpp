@@ -312,7 +312,7 @@ class HardScenes : public test::GpuTest {};
 
 class HardScene : public HardScenes, public ::testing::WithParamInterface<SceneCase> {};
 
-TEST_P(HardScene, IsFiniteInRangeAndTheSameForRays) {
+TEST_P(HardScene, PicturesAreFiniteInRangeAndTheSameForRays) {
     SceneBuilder scene = makeEmptyScene();
     GetParam().build(scene);
     Stage stage(device(), scene);
@@ -328,7 +328,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return std::string(instance.param.name); }
 );
 
-TEST_F(HardScenes, WhatFliesPastTheCameraMovesAwayFromTheVanishingPoint) {
+TEST_F(HardScenes, ObjectsPassingTheCameraMoveAwayFromTheVanishingPoint) {
     // Seen at 0.2 m as the shutter opens, 5 m behind the camera at close; its corners have no place
     // in the picture then.
     SceneBuilder scene = makeEmptyScene();
@@ -352,7 +352,7 @@ TEST_F(HardScenes, WhatFliesPastTheCameraMovesAwayFromTheVanishingPoint) {
     hold("every motion is a pixel or more and goes outwards", inwards);
 }
 
-TEST_F(HardScenes, TenAndAThousandKilometresFromTheOriginAllIsAsThere) {
+TEST_F(HardScenes, PicturesFarFromTheOriginEqualThoseAtTheOrigin) {
     SceneBuilder near = makeEmptyScene();
     addWallAndSphere(near);
     Stage nearStage(device(), near);
@@ -421,10 +421,10 @@ TEST_F(HardScenes, SixteenSurfacesOnARayAreFollowedUpToTheRecursionLimit) {
     const auto counters = draw(stage, shot, "hybrid", false).statistics.counters;
     Worst rays;
     rays.add(double(counters.at("rays traced")) / double(counters.at("pixels masked")));
-    hold("rays a masked pixel", rays, double(shot.settings.recursionLimit - 1));
+    hold("rays per masked pixel", rays, double(shot.settings.recursionLimit - 1));
 }
 
-TEST_F(HardScenes, TwoMoversOfOneLuminanceAreToldApartByIdAndNotByLuminance) {
+TEST_F(HardScenes, TwoMoversOfOneLuminanceAreSeparatedByIdAndNotByLuminance) {
     // Red and green of one luminance, in front of each other, in opposite directions.
     SceneBuilder scene = makeEmptyScene();
     addWall(scene);

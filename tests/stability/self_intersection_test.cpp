@@ -32,11 +32,11 @@ class RevealEverywhere : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "reveal everywhere"; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
         return {true, "every pixel is traced"};
     }
 
-    [[nodiscard]] core::Decision askRays(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision decideRays(const render::ViewFacts&) const override {
         return {true, "it is held against raster"};
     }
 
@@ -128,7 +128,7 @@ bool meetsInner(uint32_t x, uint32_t y, double radius, double distance) {
 
 class SelfIntersection : public test::GpuTest {};
 
-TEST_F(SelfIntersection, OfAHundredThousandRaysOneMeetsItsOwnSurfaceAgainOrMissesTheNext) {
+TEST_F(SelfIntersection, AtMostOneOfAHundredThousandRaysHitsItsSurfaceAgainOrMissesTheNext) {
     if (!device().hasRays())
         GTEST_SKIP() << device().info().name << " traces no rays";
     const dvec3 far(6e3, -5e3, 6.2e3); // 10 km from the origin

@@ -166,12 +166,12 @@ ordered_json makeSoakSettings() {
 
 using math::dvec3;
 
-constexpr uint32_t kStormFrames = 25; ///< from one storm to the next
-constexpr double kMostMetres = 1.5;   ///< longest side of a mesh that is copied
-constexpr double kMostSpeed = 4.0;    ///< m/s
-constexpr double kMostTurn = 20.0;    ///< rad/s
+constexpr uint32_t kSpawnFrames = 25; ///< from one spawn to the next
+constexpr double kMaxMetres = 1.5;    ///< longest side of a mesh that is copied
+constexpr double kMaxSpeed = 4.0;     ///< m/s
+constexpr double kMaxTurn = 20.0;     ///< rad/s
 
-/// Something that a storm copies.
+/// Something that a spawn copies.
 struct Model {
     scene::MeshInstance mesh;
     dvec3 scale{1.0};
@@ -189,7 +189,7 @@ std::vector<Model> listModels(const scene::World& world) {
         const Model model{mesh, local.transform.scale};
         const dvec3 size = world.assets.meshes[mesh.mesh].bounds.size() * model.scale;
         all.push_back(model);
-        if (std::max({size.x, size.y, size.z}) <= kMostMetres)
+        if (std::max({size.x, size.y, size.z}) <= kMaxMetres)
             small.push_back(model);
     }
     return small.empty() ? all : small;
@@ -203,8 +203,8 @@ dvec3 chooseVector(game::Random& random, const dvec3& most) {
     return chosen;
 }
 
-/// Plays a stage. Every kStormFrames frames that are not paused, `count` copies of its smaller
-/// meshes appear before the camera, every other one moving and turning; half a storm later all are
+/// Plays a stage. Every kSpawnFrames frames that are not paused, `count` copies of its smaller
+/// meshes appear before the camera, every other one moving and turning; half a spawn later all are
 /// despawned. Where they appear depends on the frame alone.
 class StormStage : public game::Stage {
   public:
@@ -218,16 +218,16 @@ class StormStage : public game::Stage {
 
     [[nodiscard]] ecs::Entity camera() const override { return mStage->camera(); }
 
-    [[nodiscard]] game::DemoLook look() const override { return mStage->look(); }
+    [[nodiscard]] game::DemoAppearance appearance() const override { return mStage->appearance(); }
 
     void advance(const app::InputState& input, const game::StageFrame& frame) override {
         mStage->advance(input, frame);
         if (frame.paused)
             return;
-        const uint32_t inStorm = mFrame++ % kStormFrames;
+        const uint32_t inStorm = mFrame++ % kSpawnFrames;
         if (inStorm == 0)
             spawn(frame.time.seconds + startSeconds());
-        else if (inStorm == kStormFrames / 2)
+        else if (inStorm == kSpawnFrames / 2)
             despawn();
     }
 
@@ -257,11 +257,11 @@ class StormStage : public game::Stage {
             at.scale = model.scale;
             const ecs::Entity entity = into.registry.create();
             if (i % 2 == 0) {
-                const dvec3 velocity = chooseVector(random, dvec3(kMostSpeed));
+                const dvec3 velocity = chooseVector(random, dvec3(kMaxSpeed));
                 at.translation -= velocity * seconds; // it counts from time 0
                 into.registry.add(entity, scene::LinearVelocity{velocity});
                 into.registry.add(
-                    entity, scene::AngularVelocity{chooseVector(random, dvec3(kMostTurn))}
+                    entity, scene::AngularVelocity{chooseVector(random, dvec3(kMaxTurn))}
                 );
             }
             into.registry.add(entity, scene::LocalTransform{at});
@@ -430,12 +430,12 @@ class Soak : public test::GpuTest {
     test::TempFolder mFolder;
 };
 
-TEST_F(Soak, NothingGrowsAndBothRunsShowTheSame) {
+TEST_F(Soak, MemoryDoesNotGrowAndBothRunsGiveTheSamePictures) {
     const auto frames =
         std::max(uint32_t(std::stoul(readEnvironment("SHUTTER_SOAK_FRAMES", "0"))), kShortestSoak);
     const std::vector<SoakRun> runs = playTwice(frames);
     ASSERT_EQ(runs.size(), kRuns);
-    ASSERT_TRUE(test::findResidentBytes()) << "the system does not tell the memory of a process";
+    ASSERT_TRUE(test::findResidentBytes()) << "the system does not report the memory of a process";
     EXPECT_EQ(countPicturesThatDiffer(runs[0], runs[1], frames), 0u);
     for (const SoakRun& run : runs)
         EXPECT_EQ(listGrowth(run), std::vector<std::string>()) << run.pictures;

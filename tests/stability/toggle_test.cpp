@@ -161,7 +161,7 @@ class Toggles : public test::GpuTest {};
 
 TEST_F(Toggles, TwoThousandFramesOfOneRendererAreThoseOfRenderersThatDrewNothingElse) {
     const std::vector<Moment> cycle = listCycle(device());
-    ASSERT_TRUE(test::findResidentBytes()) << "the system does not tell the memory of a process";
+    ASSERT_TRUE(test::findResidentBytes()) << "the system does not report the memory of a process";
     const uint64_t before = *test::findResidentBytes();
     const std::vector<uint64_t> expected = drawUntoggled(device(), cycle);
     device().collectIdle();

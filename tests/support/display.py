@@ -18,12 +18,12 @@ class Display:
     """\\param screen width, height and depth, as in "640x480x24" """
 
     def __init__(self, screen):
-        ready, told = os.pipe()
+        ready, announce = os.pipe()
         # -noreset: the server stays when the last window has gone.
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(told), "-screen", "0", screen, "-nolisten", "tcp", "-noreset"],
-            pass_fds=[told], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(told)
+            ["Xvfb", "-displayfd", str(announce), "-screen", "0", screen, "-nolisten", "tcp", "-noreset"],
+            pass_fds=[announce], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(announce)
         with os.fdopen(ready, encoding="ascii") as pipe:
             number = pipe.readline().strip()  # empty where the server could not start
         if not number:

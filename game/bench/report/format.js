@@ -77,7 +77,7 @@ function byId(id) {
 }
 
 /** Says at the top of the page what went wrong after the page was drawn. */
-function tellFailure(message) {
+function reportFailure(message) {
     byId("failure").hidden = false;
     byId("failure").textContent = `This page could not be drawn in full: ${message}.`;
 }

@@ -65,14 +65,14 @@ class DemoSource : public SequenceSource {
     [[nodiscard]] ecs::Entity ownCamera() const override { return mStage->camera(); }
 
     [[nodiscard]] extract::ViewRequest ownView() const override {
-        const game::DemoLook look = mStage->look();
+        const game::DemoAppearance appearance = mStage->appearance();
         extract::ViewRequest view;
         view.camera = mStage->camera();
         view.exposure = scene::computeExposure(makeDemoShutter(), mTime.seconds, mTime.duration);
         view.width = mOptions.width;
         view.height = mOptions.height;
-        view.background = look.background;
-        view.ambient = look.ambient;
+        view.background = appearance.background;
+        view.ambient = appearance.ambient;
         view.unlit = mOptions.unlit;
         view.particles = mOptions.picture.particles;
         view.shadows = mOptions.picture.shadows;

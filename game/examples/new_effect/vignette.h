@@ -17,7 +17,7 @@ class Vignette : public shutter::render::PostEffect {
 
     std::string name() const override { return "vignette"; }
 
-    shutter::core::Decision ask(const shutter::render::ViewFacts&) const override {
+    shutter::core::Decision decide(const shutter::render::ViewFacts&) const override {
         return {mLoss > 0.0f, "light is lost"};
     }
 

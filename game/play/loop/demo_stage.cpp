@@ -45,7 +45,7 @@ class DemoStage : public Stage {
 
     [[nodiscard]] ecs::Entity camera() const override { return mDemo->camera(); }
 
-    [[nodiscard]] DemoLook look() const override { return mDemo->look(); }
+    [[nodiscard]] DemoAppearance appearance() const override { return mDemo->appearance(); }
 
     void advance(const InputState& input, const StageFrame& frame) override {
         const DemoControls read = readControls(input);
@@ -105,9 +105,9 @@ class DemoStage : public Stage {
 core::Result<std::unique_ptr<Stage>>
 makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options) {
     SHUTTER_TRY(addSurroundings(demo->world(), options));
-    const DemoLook look = demo->look();
-    if (!demo->world().assets.environment && look.turbidity > 0.0)
-        addSky(demo->world(), look.turbidity, look.skyIntensity, demo->seconds());
+    const DemoAppearance appearance = demo->appearance();
+    if (!demo->world().assets.environment && appearance.turbidity > 0.0)
+        addSky(demo->world(), appearance.turbidity, appearance.skyIntensity, demo->seconds());
     return std::unique_ptr<Stage>(std::make_unique<DemoStage>(std::move(demo)));
 }
 

@@ -75,7 +75,7 @@ double nextSpeed(double speed, int step) {
     return kSpeeds[static_cast<size_t>(std::clamp(place, 0, int(kSpeeds.size()) - 1))];
 }
 
-PanelWishes applyHotkeys(
+PanelRequests applyHotkeys(
     const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings
 ) {
     const int step = input.isDown(Key::Shift) ? -1 : 1;
@@ -97,24 +97,24 @@ PanelWishes applyHotkeys(
         if (input.wasPressed(kPresetKeys[i]))
             applyPreset(listPresets()[i], settings);
     applyEffectKeys(input, settings);
-    PanelWishes wishes;
-    wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
-    wishes.togglePhoto = input.wasPressed(Key::T);
+    PanelRequests requests;
+    requests.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
+    requests.togglePhoto = input.wasPressed(Key::T);
     const bool focuses = input.wasPressed(Key::F);
-    wishes.focusMiddle = focuses && !input.isDown(Key::Shift);
-    wishes.focusOwn = focuses && input.isDown(Key::Shift);
-    wishes.savePicture = input.wasPressed(Key::F2);
-    wishes.singleStep = input.wasPressed(Key::Period);
-    wishes.toggleRecording = input.wasPressed(Key::R);
-    wishes.toggleFullScreen = input.wasPressed(Key::F11);
-    wishes.save = input.wasPressed(Key::F5);
-    wishes.load = input.wasPressed(Key::F9);
-    wishes.quit = input.wasPressed(Key::Escape);
+    requests.focusMiddle = focuses && !input.isDown(Key::Shift);
+    requests.focusOwn = focuses && input.isDown(Key::Shift);
+    requests.savePicture = input.wasPressed(Key::F2);
+    requests.singleStep = input.wasPressed(Key::Period);
+    requests.toggleRecording = input.wasPressed(Key::R);
+    requests.toggleFullScreen = input.wasPressed(Key::F11);
+    requests.save = input.wasPressed(Key::F5);
+    requests.load = input.wasPressed(Key::F9);
+    requests.quit = input.wasPressed(Key::Escape);
     if (input.wasPressed(Key::Comma))
-        wishes.speed = nextSpeed(speed, -1);
+        requests.speed = nextSpeed(speed, -1);
     if (input.wasPressed(Key::Slash))
-        wishes.speed = nextSpeed(speed, 1);
-    return wishes;
+        requests.speed = nextSpeed(speed, 1);
+    return requests;
 }
 
 } // namespace shutter::game

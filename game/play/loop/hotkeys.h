@@ -27,7 +27,7 @@ cycle(std::span<const std::string> choices, const std::string& current, int step
 
 /// Applies the keys to the settings; returns the rest as requests.
 /// \param speed of the game now
-[[nodiscard]] PanelWishes applyHotkeys(
+[[nodiscard]] PanelRequests applyHotkeys(
     const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings
 );
 

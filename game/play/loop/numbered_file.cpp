@@ -8,7 +8,7 @@ namespace shutter::game {
 
 namespace {
 
-constexpr int kMostFiles = 999;
+constexpr int kMaxFiles = 999;
 
 } // namespace
 
@@ -19,14 +19,14 @@ core::Result<std::filesystem::path> findFreeFile(
     std::span<const std::filesystem::path> taken
 ) {
     std::error_code ignored;
-    for (int i = 1; i <= kMostFiles; ++i) {
+    for (int i = 1; i <= kMaxFiles; ++i) {
         std::filesystem::path file = folder / fmt::format("{}_{:03}{}", stem, i, extension);
         const bool isTaken = std::find(taken.begin(), taken.end(), file) != taken.end();
         if (!isTaken && !std::filesystem::exists(file, ignored))
             return file;
     }
     return core::makeError(
-        "{} holds {} files {}_NNN{} already", folder.string(), kMostFiles, stem, extension
+        "{} holds {} files {}_NNN{} already", folder.string(), kMaxFiles, stem, extension
     );
 }
 

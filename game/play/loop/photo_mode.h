@@ -16,7 +16,7 @@ namespace shutter::game {
 
 class PhotoMode {
   public:
-    static constexpr uint32_t kMostRays = 256; ///< per pixel: then nothing is added any more
+    static constexpr uint32_t kMaxRays = 256; ///< per pixel: then nothing is added any more
     /// Pictures of `accumulate`, at least: with fewer a lens shows bright points many times.
     static constexpr uint32_t kLensPictures = 64;
 
@@ -38,7 +38,7 @@ class PhotoMode {
     [[nodiscard]] uint32_t begin(const scene::World& world, const extract::ViewRequest& view);
 
     /// Rays per pixel that the frame after begin() adds, 0 or 1.
-    [[nodiscard]] uint32_t raysToAdd() const { return mRays < kMostRays ? 1 : 0; }
+    [[nodiscard]] uint32_t raysToAdd() const { return mRays < kMaxRays ? 1 : 0; }
 
     void end() { mRays += raysToAdd(); }
 

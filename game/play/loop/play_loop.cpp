@@ -42,16 +42,16 @@ math::uvec2 scaledSize(const math::uvec2& window, double scale) {
 std::vector<KeyHelp> listPhotoKeys() {
     return {
         {"W A S D Q E", "fly"},
-        {"right drag", "look"},
+        {"right drag", "appearance"},
         {"wheel", "speed"},
         {"F", "focus on the middle"},
         {"F2", "save the picture"},
         {"T", "end"}};
 }
 
-/// What either the panel or the keyboard wishes for; the keyboard's speed wins.
-PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
-    PanelWishes both;
+/// What either the panel or the keyboard requests for; the keyboard's speed wins.
+PanelRequests join(const PanelRequests& panel, const PanelRequests& keys) {
+    PanelRequests both;
     both.save = panel.save || keys.save;
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
@@ -310,7 +310,7 @@ PanelFacts PlayLoop::describeSession() const {
     return facts;
 }
 
-PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
+PanelRequests PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
     app::Ui& ui = mScreen.ui();
     ui.begin(input, mScreen.size(), chooseUiScale(input), wallSeconds);
     mHintSeconds = mSettings.showPanel ? 0.0 : std::max(mHintSeconds - wallSeconds, 0.0);
@@ -320,44 +320,44 @@ PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds
     facts.hud = hud;
     facts.keys = keys;
     facts.showsHint = facts.showsHint || mPhotoCamera.isOut();
-    const PanelWishes wishes = mPanel.draw(facts, mSettings);
+    const PanelRequests requests = mPanel.draw(facts, mSettings);
     ui.end();
     if (ui.wantsKeys())
-        return wishes;
-    return join(wishes, applyHotkeys(input, {mMethods, mViews}, mClock.speed(), mSettings));
+        return requests;
+    return join(requests, applyHotkeys(input, {mMethods, mViews}, mClock.speed(), mSettings));
 }
 
-void PlayLoop::apply(const PanelWishes& wishes) {
-    mQuit = mQuit || wishes.quit;
-    if (wishes.togglePause) {
+void PlayLoop::apply(const PanelRequests& requests) {
+    mQuit = mQuit || requests.quit;
+    if (requests.togglePause) {
         mClock.setPaused(!mClock.isPaused());
         turnPhotoMode(false);
     }
-    if (wishes.togglePhoto)
+    if (requests.togglePhoto)
         turnPhotoMode(!mPhoto.isOn());
-    if (wishes.speed)
-        mClock.setSpeed(*wishes.speed);
-    if (wishes.focusMiddle)
+    if (requests.speed)
+        mClock.setSpeed(*requests.speed);
+    if (requests.focusMiddle)
         focusOnMiddle();
-    if (wishes.focusOwn)
+    if (requests.focusOwn)
         mSettings.lens.focusDistance = 0.0;
-    if (wishes.savePicture)
+    if (requests.savePicture)
         savePicture();
-    if (wishes.singleStep) {
+    if (requests.singleStep) {
         turnPhotoMode(false);
         mClock.setPaused(true);
         mClock.stepOnce(kSingleStepSeconds);
     }
-    if (wishes.toggleFullScreen)
+    if (requests.toggleFullScreen)
         mScreen.toggleFullScreen();
-    if (wishes.save)
+    if (requests.save)
         mMessage = mKeeper.save(mSettings);
-    if (wishes.load) {
+    if (requests.load) {
         if (std::string message = mKeeper.load(mSettings); !message.empty())
             mMessage = std::move(message);
         replaceMissingMethods();
     }
-    if (wishes.toggleRecording)
+    if (requests.toggleRecording)
         toggleRecording();
 }
 
@@ -540,15 +540,15 @@ core::Status PlayLoop::drawPicture(double duration) {
 
 PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     const math::uvec2 drawn = scaledSize(sizePx, mSettings.resolutionScale);
-    const DemoLook look = mStage->look();
+    const DemoAppearance appearance = mStage->appearance();
     PlayPicture picture;
     picture.view.camera = camera();
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;
     picture.view.frameFit = mSettings.picture.frameFit;
-    picture.view.background = look.background;
-    picture.view.ambient = look.ambient;
+    picture.view.background = appearance.background;
+    picture.view.ambient = appearance.ambient;
     picture.view.environment = mSettings.environment;
     picture.view.particles = mSettings.picture.particles;
     picture.view.shadows = mSettings.picture.shadows;

@@ -51,10 +51,10 @@ class PlayLoop {
     /// The player's input without what the user interface and the divider take.
     app::InputState filterInput(const app::InputState& input);
     void dragDivider(const app::InputState& input);
-    PanelWishes drawPanel(const app::InputState& input, double wallSeconds);
+    PanelRequests drawPanel(const app::InputState& input, double wallSeconds);
     /// Without the stage's part: lines and keys.
     [[nodiscard]] PanelFacts describeSession() const;
-    void apply(const PanelWishes& wishes);
+    void apply(const PanelRequests& requests);
     core::Status drawPicture(double duration);
     [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
     /// Records that a picture was submitted.

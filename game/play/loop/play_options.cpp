@@ -135,7 +135,7 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     options.hasWindow = !arguments.noWindow;
     options.frames = arguments.frames;
     if (!options.hasWindow && options.script.empty() && options.frames == 0)
-        return makeError("--no-window: nobody could end it; give --script or --frames");
+        return makeError("--no-window requires --script or --frames");
     return options;
 }
 

@@ -27,8 +27,9 @@ double findDistance(const scene::World& world, ecs::Entity camera, double second
 class SceneStage : public Stage {
   public:
     SceneStage(const ShotOptions& options, Shot shot)
-        : mTitle(options.scene.filename().string()), mLook{options.background, options.ambient},
-          mWorld(std::move(shot.world)), mSceneCameras(mWorld.cameras),
+        : mTitle(options.scene.filename().string()),
+          mAppearance{options.background, options.ambient}, mWorld(std::move(shot.world)),
+          mSceneCameras(mWorld.cameras),
           mViewer(
               mWorld,
               shot.camera,
@@ -59,7 +60,7 @@ class SceneStage : public Stage {
         return mChosen < mSceneCameras.size() ? mSceneCameras[mChosen] : mViewer.entity();
     }
 
-    [[nodiscard]] DemoLook look() const override { return mLook; }
+    [[nodiscard]] DemoAppearance appearance() const override { return mAppearance; }
 
     void advance(const InputState& input, const StageFrame& frame) override {
         const double seconds = mStartSeconds + frame.time.seconds;
@@ -100,7 +101,7 @@ class SceneStage : public Stage {
         if (mViewer.mode() == ViewerMode::Orbit)
             return {
                 {"drag", "turn"}, {"right drag", "move"}, {"wheel", "nearer and farther"}, next};
-        return {{"W A S D Q E", "fly"}, {"right drag", "look"}, {"wheel", "speed"}, next};
+        return {{"W A S D Q E", "fly"}, {"right drag", "appearance"}, {"wheel", "speed"}, next};
     }
 
   private:
@@ -122,7 +123,7 @@ class SceneStage : public Stage {
     }
 
     std::string mTitle;
-    DemoLook mLook;
+    DemoAppearance mAppearance;
     scene::World mWorld;
     std::vector<ecs::Entity> mSceneCameras;
     ViewerCamera mViewer;

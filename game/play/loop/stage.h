@@ -30,7 +30,7 @@ class Stage {
     [[nodiscard]] virtual std::string title() const = 0;
     [[nodiscard]] virtual scene::World& world() = 0;
     [[nodiscard]] virtual ecs::Entity camera() const = 0;
-    [[nodiscard]] virtual DemoLook look() const = 0;
+    [[nodiscard]] virtual DemoAppearance appearance() const = 0;
     /// Moves on by a frame, as the player wants.
     virtual void advance(const app::InputState& input, const StageFrame& frame) = 0;
 

@@ -145,23 +145,23 @@ std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
     return names;
 }
 
-void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes) {
+void drawPlaySection(const PanelFacts& facts, PanelRequests& requests) {
     ButtonRow buttons;
-    wishes.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
-    wishes.togglePhoto = buttons.add(
+    requests.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
+    requests.togglePhoto = buttons.add(
         facts.photo ? "End photo" : "Photo",
         "Pause, fly the camera freely, and trace the picture until it is the truth. Key T."
     );
-    wishes.savePicture =
+    requests.savePicture =
         buttons.add("Save picture", "The picture without this panel as a PNG file. Key F2.");
-    wishes.singleStep = buttons.add("Step", "One frame on, and pause. Key period.");
-    wishes.toggleRecording = buttons.add(
+    requests.singleStep = buttons.add("Step", "One frame on, and pause. Key period.");
+    requests.toggleRecording = buttons.add(
         facts.recording ? "Stop recording" : "Record", "The camera's way as a flythrough. Key R."
     );
-    wishes.toggleFullScreen = buttons.add("Full screen", "Key F11.");
-    wishes.save = buttons.add("Save settings", "Keep all settings for the next time. Key F5.");
-    wishes.load = buttons.add("Load settings", "The settings that were kept. Key F9.");
-    wishes.quit = buttons.add("Quit", "Key Escape.");
+    requests.toggleFullScreen = buttons.add("Full screen", "Key F11.");
+    requests.save = buttons.add("Save settings", "Keep all settings for the next time. Key F5.");
+    requests.load = buttons.add("Load settings", "The settings that were kept. Key F9.");
+    requests.quit = buttons.add("Quit", "Key Escape.");
     double speed = std::isnan(facts.speed) ? 1.0 : std::clamp(facts.speed, kSlowest, kFastest);
     ImGui::SetNextItemWidth(24.0f * ImGui::CalcTextSize("0").x);
     const bool moved = ImGui::SliderScalar(
@@ -174,7 +174,7 @@ void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes) {
         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp
     );
     if (moved && std::isfinite(speed))
-        wishes.speed = std::clamp(speed, kSlowest, kFastest);
+        requests.speed = std::clamp(speed, kSlowest, kFastest);
     drawTooltip("Of the world's time. Range: 1/64 to 1. Keys comma and slash.");
 }
 
@@ -209,9 +209,9 @@ void drawEffectSection(PlaySettings& settings) {
         settings.picture.bloom.share = effects.bloom.share;
         settings.picture.particles = effects.particles;
     };
-    if (buttons.add("All", "All effects beside the blur, as a new player has them."))
+    if (buttons.add("All", "All effects besides the blur, as a new player has them."))
         set(kFresh.environment, kFresh.picture);
-    if (buttons.add("None", "No effect beside the blur."))
+    if (buttons.add("None", "No effect besides the blur."))
         set(false, PictureSettings{.particles = false});
 }
 
@@ -237,7 +237,7 @@ void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {
     drawPlayRows("split", settings, std::vector<std::string_view>{"split", "dividerShare"});
 }
 
-void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes) {
+void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelRequests& requests) {
     if (facts.lens.fStop == 0.0)
         ImGui::TextDisabled("The camera is a pinhole: all is sharp.");
     else
@@ -247,10 +247,10 @@ void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         ImGui::TextDisabled("The method on the screen draws pinholes.");
     drawRows("lens", scene::listOverrideRows(), settings.lens);
     ButtonRow buttons;
-    wishes.focusMiddle = buttons.add(
+    requests.focusMiddle = buttons.add(
         "Focus on the middle", "On the surface that is in the middle of the picture. Key F."
     );
-    wishes.focusOwn =
+    requests.focusOwn =
         buttons.add("Camera's focus", "The camera's own focus again. Keys Shift and F.");
 }
 

@@ -36,16 +36,16 @@ bool unfold(const char* title, bool open) {
 
 } // namespace
 
-PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
-    PanelWishes wishes;
+PanelRequests Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
+    PanelRequests requests;
     if (facts.right)
         mHistory.add(*facts.right);
     const HudSpace space = drawHud(facts, settings);
     if (!settings.showPanel)
-        return wishes;
+        return requests;
     if (beginPanel(facts, space)) {
         if (unfold("Play", true))
-            drawPlaySection(facts, wishes);
+            drawPlaySection(facts, requests);
         if (unfold("Method", true))
             drawMethodSection(facts, settings);
         if (unfold("Effects", true))
@@ -53,7 +53,7 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
         if (unfold("Picture", false))
             drawPictureSection(facts, settings);
         if (unfold("Depth of field", false))
-            drawLensSection(facts, settings, wishes);
+            drawLensSection(facts, settings, requests);
         if (unfold("Reduced motion", false))
             drawReducedMotionSection(settings);
         if (unfold("Settings of the blur", false))
@@ -72,7 +72,7 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
     SHUTTER_CHECK(
         valid.ok(), "the panel made settings that are invalid: {}", valid.error().message
     );
-    return wishes;
+    return requests;
 }
 
 } // namespace shutter::game

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a player sees over the picture: head-up display and panel. They show settings and statistics
-// and return changed settings and wishes.
+// and return changed settings and requests.
 #pragma once
 
 #include "engine/app/ui.h"
@@ -47,7 +47,7 @@ struct PanelFacts {
 };
 
 /// What the player wants, as clicked on the panel or typed.
-struct PanelWishes {
+struct PanelRequests {
     bool save = false;
     bool load = false;
     bool togglePause = false;
@@ -66,7 +66,7 @@ class Panel {
   public:
     /// Declares the user interface of one frame (between Ui::begin and Ui::end). Changes
     /// `settings`, which are valid before and after.
-    PanelWishes draw(const PanelFacts& facts, PlaySettings& settings);
+    PanelRequests draw(const PanelFacts& facts, PlaySettings& settings);
 
   private:
     PassHistory mHistory; ///< of the right side

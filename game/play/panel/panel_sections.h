@@ -15,7 +15,7 @@ namespace shutter::game {
 /// PlaySettings::denoisedRays. Empty for methods outside modules/motion_blur.
 [[nodiscard]] std::vector<std::string_view> listReadSettings(const MethodInfo& method);
 
-void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes);
+void drawPlaySection(const PanelFacts& facts, PanelRequests& requests);
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings);
 /// Settings of the picture other than the blur, and its size. The other effects, each with its
 /// switch.
@@ -25,7 +25,7 @@ void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 void drawSettingSection(const PanelFacts& facts, PlaySettings& settings);
 void drawShutterSection(const PanelFacts& facts, PlaySettings& settings);
 /// Depth of field: what replaces the camera's own lens.
-void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes);
+void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelRequests& requests);
 void drawReducedMotionSection(PlaySettings& settings);
 void drawTimeSection(const PassHistory& history, const PlaySettings& settings);
 void drawReasonSection(const PanelFacts& facts);

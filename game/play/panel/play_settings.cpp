@@ -51,31 +51,33 @@ bool isSharp(const Preset& preset) {
 }
 
 /// A preset's settings of the effects other than the blur.
-struct PresetLook {
+struct PresetEffects {
     std::string_view preset;
     AntiAliasing antiAliasing;
     extract::ShadowMode shadows;
     float bloomShare;
 };
 
-constexpr std::array kLooks = {
-    PresetLook{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f},
-    PresetLook{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
-    PresetLook{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
+constexpr std::array kPresetEffects = {
+    PresetEffects{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f},
+    PresetEffects{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
+    PresetEffects{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
 };
 
 /// Null: the preset is about the blur alone.
-const PresetLook* findLook(const Preset& preset) {
-    const auto found = std::find_if(kLooks.begin(), kLooks.end(), [&](const PresetLook& look) {
-        return look.preset == preset.name;
-    });
-    return found == kLooks.end() ? nullptr : &*found;
+const PresetEffects* findPresetEffects(const Preset& preset) {
+    const auto found = std::find_if(
+        kPresetEffects.begin(),
+        kPresetEffects.end(),
+        [&](const PresetEffects& effects) { return effects.preset == preset.name; }
+    );
+    return found == kPresetEffects.end() ? nullptr : &*found;
 }
 
-bool isSeen(const PresetLook* look, const PlaySettings& settings) {
-    return !look || (settings.picture.antiAliasing == look->antiAliasing &&
-                     settings.picture.shadows.mode == look->shadows && settings.environment &&
-                     settings.picture.bloom.share == look->bloomShare);
+bool isSeen(const PresetEffects* effects, const PlaySettings& settings) {
+    return !effects || (settings.picture.antiAliasing == effects->antiAliasing &&
+                        settings.picture.shadows.mode == effects->shadows && settings.environment &&
+                        settings.picture.bloom.share == effects->bloomShare);
 }
 
 } // namespace
@@ -84,17 +86,17 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     settings.method = preset.method;
     if (!isSharp(preset))
         settings.blur = preset.blur;
-    const PresetLook* look = findLook(preset);
-    if (!look)
+    const PresetEffects* effects = findPresetEffects(preset);
+    if (!effects)
         return;
-    settings.picture.antiAliasing = look->antiAliasing;
-    settings.picture.shadows.mode = look->shadows;
+    settings.picture.antiAliasing = effects->antiAliasing;
+    settings.picture.shadows.mode = effects->shadows;
     settings.environment = true;
-    settings.picture.bloom.share = look->bloomShare;
+    settings.picture.bloom.share = effects->bloomShare;
 }
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
-    return settings.method == preset.method && isSeen(findLook(preset), settings) &&
+    return settings.method == preset.method && isSeen(findPresetEffects(preset), settings) &&
            (isSharp(preset) ||
             core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
 }
@@ -143,7 +145,7 @@ core::SettingRows<PlaySettings> listPlayRows() {
          "",
          {.lowest = 0, .highest = 1},
          "Scales the blur that the camera's own motion causes, for players whom it makes sick. At "
-         "0 only what moves in the world blurs.",
+         "0 only movers blur.",
          "Camera blur"},
         {"split",
          &S::split,

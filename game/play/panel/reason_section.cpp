@@ -35,7 +35,7 @@ void drawCounters(const render::FrameStatistics& statistics, const math::uvec2& 
     for (const char* name : {"pixels masked", "rays traced"})
         if (const auto count = findCounter(statistics, name))
             drawShare(name, *count, pixels);
-    for (const char* name : {"rays a pixel", "crowded tiles"})
+    for (const char* name : {"rays per pixel", "crowded tiles"})
         if (const auto count = findCounter(statistics, name))
             drawShare(name, *count, 0);
     constexpr const char* kBlocks[] = {

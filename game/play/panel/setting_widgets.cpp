@@ -14,25 +14,25 @@ double orElse(double value, double fallback) {
     return std::isnan(value) ? fallback : value;
 }
 
-std::string describeAtLength(const WidgetLook& look, const core::NumberRange* range) {
-    std::string text = look.meaning;
+std::string describeAtLength(const WidgetFormat& widget, const core::NumberRange* range) {
+    std::string text = widget.meaning;
     if (range)
-        text += fmt::format("\n\nRange: {}.", core::describeRange(*range, look.unit));
+        text += fmt::format("\n\nRange: {}.", core::describeRange(*range, widget.unit));
     else
         text += "\n";
     return text +
            fmt::format(
-               "\nDefault: {} (right click).\nIn settings files: {}.", look.fallback, look.name
+               "\nDefault: {} (right click).\nIn settings files: {}.", widget.fallback, widget.name
            );
 }
 
 /// The label, and the column of the value.
-void beginRow(const WidgetLook& look) {
-    ImGui::PushID(look.name);
+void beginRow(const WidgetFormat& widget) {
+    ImGui::PushID(widget.name);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(look.label);
+    ImGui::TextUnformatted(widget.label);
 }
 
 WidgetEvent endRow(bool changed) {
@@ -133,9 +133,9 @@ double snapToRange(const core::NumberRange& range, double value) {
     return range.lowest + range.step * std::floor((clamped - range.lowest) / range.step);
 }
 
-WidgetEvent drawNumber(const WidgetLook& look, const core::NumberRange& range, double& value) {
-    beginRow(look);
-    drawTooltip(describeAtLength(look, &range));
+WidgetEvent drawNumber(const WidgetFormat& widget, const core::NumberRange& range, double& value) {
+    beginRow(widget);
+    drawTooltip(describeAtLength(widget, &range));
     ImGui::TableNextColumn();
     bool changed = false;
     double chosen = value;
@@ -151,23 +151,23 @@ WidgetEvent drawNumber(const WidgetLook& look, const core::NumberRange& range, d
     }
     if (std::isfinite(chosen)) {
         // Text that a player types may not be a number.
-        if (slide(range, look.unit, chosen) && !std::isnan(chosen)) {
+        if (slide(range, widget.unit, chosen) && !std::isnan(chosen)) {
             chosen = snapToRange(range, chosen);
             changed = true;
         }
     } else {
         showUnlimited();
     }
-    drawTooltip(describeAtLength(look, &range));
+    drawTooltip(describeAtLength(widget, &range));
     if (changed)
         value = chosen;
     return endRow(changed);
 }
 
 WidgetEvent
-drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size_t& index) {
-    beginRow(look);
-    drawTooltip(describeAtLength(look, nullptr));
+drawChoice(const WidgetFormat& widget, std::span<const std::string_view> words, size_t& index) {
+    beginRow(widget);
+    drawTooltip(describeAtLength(widget, nullptr));
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-std::numeric_limits<float>::min());
     bool changed = false;
@@ -179,16 +179,16 @@ drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size
             }
         ImGui::EndCombo();
     }
-    drawTooltip(describeAtLength(look, nullptr));
+    drawTooltip(describeAtLength(widget, nullptr));
     return endRow(changed);
 }
 
-WidgetEvent drawSwitch(const WidgetLook& look, bool& value) {
-    beginRow(look);
-    drawTooltip(describeAtLength(look, nullptr));
+WidgetEvent drawSwitch(const WidgetFormat& widget, bool& value) {
+    beginRow(widget);
+    drawTooltip(describeAtLength(widget, nullptr));
     ImGui::TableNextColumn();
     const bool changed = ImGui::Checkbox("##value", &value);
-    drawTooltip(describeAtLength(look, nullptr));
+    drawTooltip(describeAtLength(widget, nullptr));
     return endRow(changed);
 }
 

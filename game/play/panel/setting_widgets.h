@@ -14,7 +14,7 @@
 namespace shutter::game {
 
 /// Label and format of a widget.
-struct WidgetLook {
+struct WidgetFormat {
     const char* name;  ///< in settings files
     const char* label; ///< for people
     const char* unit;
@@ -35,10 +35,10 @@ void endRows();
 /// A changed value lies in the range: what a player types beyond it is clamped, and text that is
 /// not a number is dropped.
 [[nodiscard]] WidgetEvent
-drawNumber(const WidgetLook& look, const core::NumberRange& range, double& value);
+drawNumber(const WidgetFormat& widget, const core::NumberRange& range, double& value);
 [[nodiscard]] WidgetEvent
-drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size_t& index);
-[[nodiscard]] WidgetEvent drawSwitch(const WidgetLook& look, bool& value);
+drawChoice(const WidgetFormat& widget, std::span<const std::string_view> words, size_t& index);
+[[nodiscard]] WidgetEvent drawSwitch(const WidgetFormat& widget, bool& value);
 
 /// Shown while the pointer is over the last item, a disabled one too.
 void drawTooltip(const std::string& text);
@@ -49,21 +49,22 @@ void drawTooltip(const std::string& text);
 /// The row's field as a widget. \param defaults where a click with the right button leads
 template <class Owner>
 void drawRow(const core::SettingRow<Owner>& row, Owner& owner, const Owner& defaults) {
-    const WidgetLook look{row.name, row.label, row.unit, row.meaning, describeValue(row, defaults)};
+    const WidgetFormat widget{
+        row.name, row.label, row.unit, row.meaning, describeValue(row, defaults)};
     if (const auto* yes = std::get_if<bool Owner::*>(&row.field)) {
-        if (drawSwitch(look, owner.**yes) == WidgetEvent::Reset)
+        if (drawSwitch(widget, owner.**yes) == WidgetEvent::Reset)
             owner.** yes = defaults.**yes;
         return;
     }
     if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field)) {
         size_t index = words->get(owner);
-        const WidgetEvent event = drawChoice(look, words->words, index);
+        const WidgetEvent event = drawChoice(widget, words->words, index);
         if (event != WidgetEvent::None)
             words->set(owner, event == WidgetEvent::Reset ? words->get(defaults) : index);
         return;
     }
     double value = getNumber(row, owner);
-    const WidgetEvent event = drawNumber(look, row.range, value);
+    const WidgetEvent event = drawNumber(widget, row.range, value);
     if (event != WidgetEvent::None)
         setNumber(row, owner, event == WidgetEvent::Reset ? getNumber(row, defaults) : value);
 }

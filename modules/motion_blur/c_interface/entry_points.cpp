@@ -213,14 +213,14 @@ shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* repor
         blur->counters.clear();
         for (const auto& [name, value] : blur->report.counters)
             blur->counters.push_back({name.c_str(), value});
-        ShutterBlurReport& told = taken.value();
-        told.passCount = static_cast<uint32_t>(blur->passes.size());
-        told.passes = blur->passes.data();
-        told.counterCount = static_cast<uint32_t>(blur->counters.size());
-        told.counters = blur->counters.data();
-        told.gpuMilliseconds = blur->report.milliseconds;
-        told.gaveUp = blur->report.gaveUp.c_str();
-        std::memcpy(report, &told, report->structBytes);
+        ShutterBlurReport& reported = taken.value();
+        reported.passCount = static_cast<uint32_t>(blur->passes.size());
+        reported.passes = blur->passes.data();
+        reported.counterCount = static_cast<uint32_t>(blur->counters.size());
+        reported.counters = blur->counters.data();
+        reported.gpuMilliseconds = blur->report.milliseconds;
+        reported.droppedQuality = blur->report.droppedQuality.c_str();
+        std::memcpy(report, &reported, report->structBytes);
         return SHUTTER_BLUR_SUCCESS;
     });
 }

@@ -551,8 +551,8 @@ typedef struct ShutterBlurReport {
     const ShutterBlurPassTime* passes; /* in the order in which they ran */
     uint32_t counterCount;
     const ShutterBlurCounter* counters;
-    double gpuMilliseconds; /* of all passes together */
-    const char* gaveUp;     /* to stay within budgetMilliseconds; empty: nothing */
+    double gpuMilliseconds;     /* of all passes together */
+    const char* droppedQuality; /* to stay within budgetMilliseconds; empty: nothing */
 } ShutterBlurReport;
 
 static inline ShutterBlurReport shutterBlurDefaultReport(void) {

@@ -79,10 +79,12 @@ void point(Array& array, Pointer& pointer, std::uint32_t& count) {
 struct BlurDevice : ShutterBlurDevice {
     BlurDevice() : ShutterBlurDevice(shutterBlurDefaultDevice()) {}
 
-    BlurDevice(VkPhysicalDevice from, VkDevice own, std::uint32_t family, std::uint32_t frames = 2)
+    BlurDevice(
+        VkPhysicalDevice from, VkDevice vkHandle, std::uint32_t family, std::uint32_t frames = 2
+    )
         : BlurDevice() {
         physical = from;
-        device = own;
+        device = vkHandle;
         queueFamily = family;
         framesInFlight = frames;
     }
@@ -119,9 +121,9 @@ struct BlurUse : ShutterBlurUse {
 struct BlurImage : ShutterBlurImage {
     BlurImage() : ShutterBlurImage() {}
 
-    BlurImage(VkImage own, BlurUse last, BlurUse next, VkFormat made = VK_FORMAT_UNDEFINED)
+    BlurImage(VkImage vkHandle, BlurUse last, BlurUse next, VkFormat made = VK_FORMAT_UNDEFINED)
         : ShutterBlurImage() {
-        image = own;
+        image = vkHandle;
         before = last;
         after = next;
         format = made;

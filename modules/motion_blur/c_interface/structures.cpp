@@ -141,8 +141,8 @@ void setAnswer(
         answer.record = [record, user](const Task& task) { record(user, &task); };
 }
 
-OwnBlended convertDrawn(const ShutterBlurInputs& given) {
-    OwnBlended drawn;
+HostBlended convertDrawn(const ShutterBlurInputs& given) {
+    HostBlended drawn;
     if (given.recordBlended)
         drawn.record = [record = given.recordBlended,
                         user = given.blendedUser](const BlendedTask& task) { record(user, &task); };
@@ -214,9 +214,9 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     device.measures = taken.value().measures != VK_FALSE;
     device.checksInputs = taken.value().checksInputs != VK_FALSE;
     if (taken.value().message)
-        device.message = [tell = taken.value().message,
+        device.message = [send = taken.value().message,
                           user = taken.value().messageUser](std::string_view sentence) {
-            tell(user, std::string(sentence).c_str());
+            send(user, std::string(sentence).c_str());
         };
     return device;
 }

@@ -30,7 +30,7 @@ core::Status checkPlan(const HostPlan& plan, uint32_t framesInFlight) {
     return {};
 }
 
-/// Images of a small picture, in place of imagined ones.
+/// Images of a small picture, in place of dryRun ones.
 class SmallImages {
   public:
     SmallImages(gpu::Device& device, HostInputs& inputs) : mDevice(device) {
@@ -122,17 +122,17 @@ core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
     small.settings = complete(plan.settings);
     small.width = small.height = kWarmUpPixels;
     small.moverCount = std::min(plan.moverCount, 1u);
-    ImaginedInputs imagined;
-    imagine(small, imagined);
-    const SmallImages images(*mDevice, imagined.inputs);
-    SHUTTER_TRY(checkInputs(imagined.inputs, small.settings, abilities()));
+    DryRunInputs dryRun;
+    fillPlaceholders(small, dryRun);
+    const SmallImages images(*mDevice, dryRun.inputs);
+    SHUTTER_TRY(checkInputs(dryRun.inputs, small.settings, abilities()));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
     // Without a frame before and with one, with few movers and with all that may come.
     for (uint32_t i = 0; i < 4; ++i) {
         const DroppedCommands dropped(mHost.device, mHost.queueFamily);
         graph::Graph graph;
-        Frame frame{0, slot, graph, imagined.inputs, small.settings};
+        Frame frame{0, slot, graph, dryRun.inputs, small.settings};
         frame.hasAll = i >= 2;
         SHUTTER_TRY(record(frame, view, dropped.commands));
     }
@@ -161,7 +161,7 @@ core::Status EmbeddedMotionBlur::startWarmUp(const HostPlan& plan) {
     SHUTTER_TRY(call.status());
     if (mWarmUp.valid())
         return makeError("motion blur: shutterBlurStartWarmUp: another is under way; "
-                         "shutterBlurIsWarm() tells when it "
+                         "shutterBlurIsWarm() reports when it "
                          "is done");
     return guard([&]() -> core::Status {
         // Another effect on the same device makes them, and leaves them in the cache.
@@ -204,12 +204,12 @@ EmbeddedMotionBlur::estimateMemory(const HostDevice& host, const HostPlan& plan)
 
 core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
     SHUTTER_TRY(checkPlan(plan, mHost.framesInFlight));
-    ImaginedInputs imagined;
-    imagine(plan, imagined);
+    DryRunInputs dryRun;
+    fillPlaceholders(plan, dryRun);
     HostAbilities host = abilities();
     host.images.device = VK_NULL_HANDLE;
     const MotionBlurSettings settings = complete(plan.settings);
-    SHUTTER_TRY(checkInputs(imagined.inputs, settings, host));
+    SHUTTER_TRY(checkInputs(dryRun.inputs, settings, host));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
     uint64_t transients = 0;
@@ -218,9 +218,9 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
     // The second frame has one before it.
     for (uint32_t i = 0; i < 2; ++i) {
         if (keeps)
-            view.history.imagine({plan.width, plan.height});
+            view.history.fillPlaceholders({plan.width, plan.height});
         graph::Graph graph;
-        Frame frame{0, slot, graph, imagined.inputs, settings, false, true, true};
+        Frame frame{0, slot, graph, dryRun.inputs, settings, false, true, true};
         declare(frame, view);
         const auto compiled = graph::compile(graph, slot.pool.requirementFunction());
         if (!compiled)

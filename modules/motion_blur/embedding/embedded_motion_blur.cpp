@@ -21,7 +21,7 @@ namespace {
 
 using core::makeError;
 
-constexpr uint32_t kMostFrames = kMostSlots;
+constexpr uint32_t kMaxFrames = kMaxSlots;
 
 uint32_t findTimestampBits(VkPhysicalDevice device, uint32_t queueFamily) {
     uint32_t count = 0;
@@ -36,11 +36,9 @@ core::Status checkHost(const HostDevice& host) {
         return makeError(
             "motion blur: ShutterBlurDevice::{} is null", host.physical ? "device" : "physical"
         );
-    if (host.framesInFlight < 1 || host.framesInFlight > kMostFrames)
+    if (host.framesInFlight < 1 || host.framesInFlight > kMaxFrames)
         return makeError(
-            "motion blur: framesInFlight is {}, it must be 1 to {}",
-            host.framesInFlight,
-            kMostFrames
+            "motion blur: framesInFlight is {}, it must be 1 to {}", host.framesInFlight, kMaxFrames
         );
     if (host.apiVersion != 0 && host.apiVersion < VK_API_VERSION_1_3)
         return makeError(
@@ -109,7 +107,7 @@ EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, cons
     if (!host.checksInputs)
         return;
     mChecker = std::make_unique<HostChecker>(*mDevice, host.framesInFlight, host.message);
-    mUnsaid = std::make_unique<HostUnsaid>(host.device);
+    mUndeclared = std::make_unique<HostUndeclared>(host.device);
 }
 
 void EmbeddedMotionBlur::warn(const std::string& sentence) const {
@@ -125,7 +123,7 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() {
         if (isPending(frame))
             warn(fmt::format(
                 "motion blur: destroyed while the GPU has frame {} before it, unless that was "
-                "never submitted (shutterBlurMarkDone tells)",
+                "never submitted (report that by shutterBlurMarkDone)",
                 frame
             ));
     if (mChecker)
@@ -168,11 +166,12 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     const MotionBlurSettings settings = complete(wanted, knowsMotions);
     try {
         SHUTTER_TRY(check(commands, frame, inputs, settings));
-        if (mUnsaid)
-            mUnsaid->ask(inputs, mHost.message); // before the driver meets the images
+        if (mUndeclared)
+            mUndeclared->report(inputs, mHost.message); // before the driver meets the images
         SHUTTER_TRY(finishFrame(frame));
         mHasLeftAPart = true;
-        if (!wanted.method && !knowsMotions && !inputs.isOff && !std::exchange(mTellsMethod, true))
+        if (!wanted.method && !knowsMotions && !inputs.isOff &&
+            !std::exchange(mReportsMethod, true))
             warn("motion blur: keys is empty, so the default method is gather in place of "
                  "resolved");
         Slot& slot = *mSlots[frame];
@@ -215,7 +214,7 @@ core::Status EmbeddedMotionBlur::finishFrame(uint32_t frame) {
     if (mDump)
         mDump->finish(frame);
     mDevice->markDone(mSlots[frame]->handedOver);
-    mSlots[frame]->isToldDone = true;
+    mSlots[frame]->isCompletionKnown = true;
     return {};
 }
 
@@ -237,12 +236,12 @@ bool EmbeddedMotionBlur::hasRun(uint32_t frame) const {
 }
 
 bool EmbeddedMotionBlur::isPending(uint32_t frame) const {
-    return !mSlots[frame]->isToldDone && !hasRun(frame);
+    return !mSlots[frame]->isCompletionKnown && !hasRun(frame);
 }
 
 void EmbeddedMotionBlur::recordMark(uint32_t frame, VkCommandBuffer commands) {
     Slot& slot = *mSlots[frame];
-    slot.isToldDone = false;
+    slot.isCompletionKnown = false;
     constexpr VkDeviceSize kBytes = sizeof(uint32_t);
     vkCmdFillBuffer(commands, mMarks.handle(), frame * kBytes, kBytes, ++slot.recordings);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -292,7 +291,7 @@ const MotionBlurSettings& EmbeddedMotionBlur::chooseSettings(
     const uint32_t number = inputs.motion.view;
     View& view = *mViews[number];
     Slot& slot = *mSlots[frame];
-    slot.gaveUp.clear();
+    slot.droppedQuality.clear();
     const bool isNew = !view.budget || view.wanted != settings ||
                        view.budget->budget().milliseconds != inputs.budget.milliseconds;
     // Before the slot is recorded again: its times are still those of the last recording.
@@ -320,7 +319,7 @@ const MotionBlurSettings& EmbeddedMotionBlur::chooseSettings(
     }
     slot.view = number;
     slot.level = view.budget->level();
-    slot.gaveUp = view.budget->current().gaveUp;
+    slot.droppedQuality = view.budget->current().droppedQuality;
     return view.budget->current().settings;
 }
 
@@ -341,7 +340,7 @@ core::Result<HostReport> EmbeddedMotionBlur::report(uint32_t frame) const {
         report.milliseconds += pass.gpuMilliseconds;
     if (slot.counts)
         report.counters = mEffect.counters(frame);
-    report.gaveUp = slot.gaveUp;
+    report.droppedQuality = slot.droppedQuality;
     return report;
 }
 

@@ -31,7 +31,7 @@ namespace shutter::motion_blur {
 class HostChecker;
 class HostDump;
 class HostOverlay;
-class HostUnsaid;
+class HostUndeclared;
 
 class EmbeddedMotionBlur {
   public:
@@ -152,14 +152,14 @@ class EmbeddedMotionBlur {
     uint32_t mTimestampBits = 0;          ///< 0: nothing is measured
     bool mHasRays;
     bool mHasLeftAPart = false;
-    bool mTellsMethod = false; ///< the message that the default is gather was sent
+    bool mReportsMethod = false; ///< the message that the default is gather was sent
     MotionBlur mEffect;
     HostPreparation mPreparation;
     Composite mComposite;
     std::unique_ptr<HostOverlay> mOverlay;
-    std::unique_ptr<HostChecker> mChecker; ///< null: off
-    std::unique_ptr<HostUnsaid> mUnsaid;   ///< the same
-    std::unique_ptr<HostDump> mDump;       ///< null: none was wanted yet
+    std::unique_ptr<HostChecker> mChecker;       ///< null: off
+    std::unique_ptr<HostUndeclared> mUndeclared; ///< the same
+    std::unique_ptr<HostDump> mDump;             ///< null: none was wanted yet
     /// By frame in flight, the number of the last recording of it that the GPU ran.
     gpu::Buffer mMarks;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight

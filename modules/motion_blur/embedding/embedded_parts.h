@@ -30,19 +30,19 @@ struct EmbeddedMotionBlur::Slot {
     /// Views of the host's images, recreated in each frame: an equal handle need not be the same
     /// image. A deque, since the graph points to them.
     std::deque<gpu::Image> images;
-    gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
-    gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
-    gpu::Buffer overlay;     ///< shader::OverlayTable, where inputs are shown
-    gpu::Buffer response;    ///< shader::ResponseTable, where points of it are given
-    uint64_t handedOver = 0; ///< timeline value of the last recording
-    uint32_t recordings = 0; ///< counter that the GPU marks once it has run the last of them
-    bool isToldDone = true;  ///< by markDone(), or there is none
-    bool counts = false;     ///< the last recording has counters
-    uint32_t view = 0;       ///< of the last recording
+    gpu::Buffer instants;          ///< math::InstantLayers, for the methods that read them
+    gpu::Buffer convention;        ///< shader::PrepareTable, where motion and depth are made
+    gpu::Buffer overlay;           ///< shader::OverlayTable, where inputs are shown
+    gpu::Buffer response;          ///< shader::ResponseTable, where points of it are given
+    uint64_t handedOver = 0;       ///< timeline value of the last recording
+    uint32_t recordings = 0;       ///< counter that the GPU marks once it has run the last of them
+    bool isCompletionKnown = true; ///< by markDone(), or there is none
+    bool counts = false;           ///< the last recording has counters
+    uint32_t view = 0;             ///< of the last recording
     /// The budget's level that the frame was recorded with; nothing: the budget has its time
     /// already.
     std::optional<size_t> level;
-    std::string gaveUp;
+    std::string droppedQuality;
 };
 
 /// State of a view between frames.
@@ -78,7 +78,7 @@ struct EmbeddedMotionBlur::Frame {
 
     bool isHosts = false; ///< the host will submit it: it may be checked and dumped
     bool isDumped = false;
-    OwnReveal dumpedReveal{}; ///< the host's, whose answer is dumped
+    HostReveal dumpedReveal{}; ///< the host's, whose answer is dumped
     /// Made from HostInputs::responsePoints; none where they are a box.
     std::optional<shader::ResponseTable> responseTable{};
     std::optional<BlendedDraws> drawn{}; ///< of HostInputs::drawn

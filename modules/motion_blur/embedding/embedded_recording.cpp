@@ -130,10 +130,10 @@ EmbeddedMotionBlur::prepareCameraMotion(Frame& frame, graph::ImageHandle depth) 
 }
 
 graph::ImageHandle EmbeddedMotionBlur::showInputs(
-    Frame& frame, const MotionBlurInputs& own, graph::ImageHandle picture
+    Frame& frame, const MotionBlurInputs& effectInputs, graph::ImageHandle picture
 ) const {
-    MotionBlurInputs given = own;
-    given.entityId = frame.images.entityId.isValid() ? own.entityId : graph::ImageHandle();
+    MotionBlurInputs given = effectInputs;
+    given.entityId = frame.images.entityId.isValid() ? effectInputs.entityId : graph::ImageHandle();
     const shader::OverlayTable table = makeOverlayTable(frame.inputs, given);
     const VkDeviceAddress address = writeTable(*mDevice, frame.slot.overlay, "overlay", table);
     return mOverlay->add(frame.graph, given, picture, address);
@@ -147,14 +147,14 @@ std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     const VkExtent2D picture = pictureOf(inputs);
     LentRaster lent;
     lent.color = frame.import(*mDevice, "last colour", last.color, kLastColorRule);
-    if (!isOwn(last.color, kHostColorFormat, picture))
+    if (!isNativeImage(last.color, kHostColorFormat, picture))
         lent.color = mPreparation.addColor(frame.graph, lent.color, last.color, picture);
     lent.motionDepth =
         frame.import(*mDevice, "last motion and depth", last.motionDepth, kLastMotionRule);
     lent.entityId = frame.import(*mDevice, "last entity id", last.entityId, kLastIdRule);
     if (!lent.entityId.isValid())
         lent.entityId = mPreparation.addWorldIds(frame.graph, lent.motionDepth, picture);
-    else if (!isOwn(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
+    else if (!isNativeImage(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
         lent.entityId = mPreparation.addIds(
             frame.graph, lent.entityId, last.entityId, inputs.noEntity, picture
         );
@@ -197,43 +197,48 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     const VkExtent2D picture = pictureOf(inputs);
     graph::Graph& graph = frame.graph;
     gpu::Device& device = *mDevice;
-    MotionBlurInputs own;
-    own.slot = frame.number;
-    own.wantsCounters = frame.wantsCounters;
-    own.rasterTime = inputs.rasterTime;
-    own.response = gpu::splitAddress(giveResponse(frame));
-    own.frameNumber = inputs.frameNumber;
+    MotionBlurInputs effectInputs;
+    effectInputs.slot = frame.number;
+    effectInputs.wantsCounters = frame.wantsCounters;
+    effectInputs.rasterTime = inputs.rasterTime;
+    effectInputs.response = gpu::splitAddress(giveResponse(frame));
+    effectInputs.frameNumber = inputs.frameNumber;
     frame.images.color = frame.import(device, "color", inputs.color, colorRule(inputs));
     frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
-    const bool isOwnColor = isOwn(inputs.color, kHostColorFormat, picture);
-    own.color = isOwnColor
-                    ? frame.images.color
-                    : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
-    own.colorIsWritable = !isOwnColor || !inputs.output.image;
-    if (inputs.output.image && isOwn(inputs.output, kHostColorFormat, picture))
-        own.target = frame.output;
-    else if (!inputs.output.image && isOwnColor)
-        own.target = frame.images.color;
+    const bool isNativeColor = isNativeImage(inputs.color, kHostColorFormat, picture);
+    effectInputs.color =
+        isNativeColor ? frame.images.color
+                      : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
+    effectInputs.colorIsWritable = !isNativeColor || !inputs.output.image;
+    if (inputs.output.image && isNativeImage(inputs.output, kHostColorFormat, picture))
+        effectInputs.target = frame.output;
+    else if (!inputs.output.image && isNativeColor)
+        effectInputs.target = frame.images.color;
     // Those the method does not read are imported as well: they go over to their next use.
-    own.motionDepth = prepareMotion(frame);
-    own.motionIsCameras = frame.wantsCameraMotion();
-    own.normal = frame.images.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
-    if (own.normal.isValid() && !isOwn(inputs.normal, kHostColorFormat, picture))
-        own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
+    effectInputs.motionDepth = prepareMotion(frame);
+    effectInputs.motionIsCameras = frame.wantsCameraMotion();
+    effectInputs.normal = frame.images.normal =
+        frame.import(device, "normal", inputs.normal, kNormalRule);
+    if (effectInputs.normal.isValid() && !isNativeImage(inputs.normal, kHostColorFormat, picture))
+        effectInputs.normal =
+            mPreparation.addNormal(graph, effectInputs.normal, inputs.normal, picture);
     frame.images.deformed =
         frame.import(device, "deformed motion", inputs.deformedMotion, kDeformedRule);
     frame.images.lastDeformed =
         frame.import(device, "last deformed motion", inputs.lastDeformedMotion, kLastDeformedRule);
     frame.images.blended = frame.import(device, "blended", inputs.blended, kBlendedRule);
-    own.entityId = frame.images.entityId =
+    effectInputs.entityId = frame.images.entityId =
         frame.import(device, "entity id", inputs.entityId, kIdRule);
-    if (own.entityId.isValid() &&
-        (!isOwn(inputs.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
-        own.entityId =
-            mPreparation.addIds(graph, own.entityId, inputs.entityId, inputs.noEntity, picture);
-    if (!own.entityId.isValid() && frame.settings.method->readsInstantMotions && !inputs.isOff)
-        own.entityId = mPreparation.addWorldIds(graph, own.motionDepth, picture);
-    return own;
+    if (effectInputs.entityId.isValid() &&
+        (!isNativeImage(inputs.entityId, kHostIdFormat, picture) ||
+         inputs.noEntity != shader::kNoEntity))
+        effectInputs.entityId = mPreparation.addIds(
+            graph, effectInputs.entityId, inputs.entityId, inputs.noEntity, picture
+        );
+    if (!effectInputs.entityId.isValid() && frame.settings.method->readsInstantMotions &&
+        !inputs.isOff)
+        effectInputs.entityId = mPreparation.addWorldIds(graph, effectInputs.motionDepth, picture);
+    return effectInputs;
 }
 
 graph::ImageHandle EmbeddedMotionBlur::addBlended(
@@ -241,7 +246,7 @@ graph::ImageHandle EmbeddedMotionBlur::addBlended(
 ) {
     const HostInputs& inputs = frame.inputs;
     if (frame.drawn) {
-        const auto parts = addOwnBlended(frame.graph, inputs.drawn, *frame.drawn, surfaces);
+        const auto parts = addHostBlended(frame.graph, inputs.drawn, *frame.drawn, surfaces);
         if (frame.isDumped)
             mDump->addDrawn(frame.graph, frame.number, parts);
         picture = mComposite.add(
@@ -278,7 +283,7 @@ void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const
     const HostImage& given = inPlace ? inputs.color : inputs.output;
     if (inputs.isOff && inPlace && !inputs.blended.image && !inputs.drawn.record)
         picture = frame.images.color; // nothing is written
-    else if ((inputs.isOff && !inPlace) || !isOwn(given, kHostColorFormat, pictureOf(inputs)))
+    else if ((inputs.isOff && !inPlace) || !isNativeImage(given, kHostColorFormat, pictureOf(inputs)))
         picture = mPreparation.addDelivery(
             frame.graph,
             picture,
@@ -292,18 +297,19 @@ void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const
 void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     const HostInputs& inputs = frame.inputs;
     const Method& method = *frame.settings.method;
-    MotionBlurInputs own = prepare(frame);
+    MotionBlurInputs effectInputs = prepare(frame);
     if (inputs.drawn.record)
         frame.drawn = describeDrawn(inputs, frame.settings, frame.response());
     if (frame.drawn && findsSurfaces(inputs, frame.settings))
-        own.surfaces = {frame.drawn->rectangle};
+        effectInputs.surfaces = {frame.drawn->rectangle};
     if (inputs.isOff) {
         view.forget();
         (void)prepareLast(frame);
-        if ((frame.images.blended.isValid() || frame.drawn) && !own.colorIsWritable)
-            own.color =
-                mPreparation.addColor(frame.graph, own.color, inputs.color, pictureOf(inputs));
-        deliver(frame, addBlended(frame, own.color, {}));
+        if ((frame.images.blended.isValid() || frame.drawn) && !effectInputs.colorIsWritable)
+            effectInputs.color = mPreparation.addColor(
+                frame.graph, effectInputs.color, inputs.color, pictureOf(inputs)
+            );
+        deliver(frame, addBlended(frame, effectInputs.color, {}));
         return;
     }
     if (frame.isHosts && mChecker)
@@ -318,10 +324,10 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         frame.dumpedReveal = mDump->wrapReveal(inputs, frame.number, *frame.slot.frame);
     }
     if (method.rays == RayNeed::Query)
-        own.samples = &inputs.samples;
+        effectInputs.samples = &inputs.samples;
     if (method.rays == RayNeed::Any && inputs.reveal.record) {
-        own.reveal = frame.isDumped ? &frame.dumpedReveal : &inputs.reveal;
-    } else if (method.rays == RayNeed::Any || (method.readsCamera && !own.motionIsCameras)) {
+        effectInputs.reveal = frame.isDumped ? &frame.dumpedReveal : &inputs.reveal;
+    } else if (method.rays == RayNeed::Any || (method.readsCamera && !effectInputs.motionIsCameras)) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (method.rays == RayNeed::Any && inputs.rays.tlas) {
             rays.tlasBuffer = frame.graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
@@ -329,23 +335,23 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
             rays.textures = inputs.rays.scene;
             rays.hasBlended = inputs.rays.hasBlended;
         }
-        own.rays = rays;
+        effectInputs.rays = rays;
     }
     if (method.readsInstantMotions) {
-        own.instantMotions = describeInstants(frame, view);
+        effectInputs.instantMotions = describeInstants(frame, view);
     } else {
         view.forget();
         (void)prepareLast(frame);
     }
-    const MotionBlurOutputs made = mEffect.add(frame.graph, own, frame.settings);
+    const MotionBlurOutputs made = mEffect.add(frame.graph, effectInputs, frame.settings);
     if (inputs.observe)
-        inputs.observe(frame.graph, own, made);
+        inputs.observe(frame.graph, effectInputs, made);
     const graph::ImageHandle picture = addBlended(
         frame, made.color, made.surfaces.empty() ? graph::BufferHandle{} : made.surfaces.front()
     );
     if (frame.isDumped)
         mDump->addPicture(frame.graph, frame.number, picture);
-    deliver(frame, inputs.showsInputs ? showInputs(frame, own, picture) : picture);
+    deliver(frame, inputs.showsInputs ? showInputs(frame, effectInputs, picture) : picture);
 }
 
 core::Status EmbeddedMotionBlur::record(Frame& frame, View& view, VkCommandBuffer commands) {

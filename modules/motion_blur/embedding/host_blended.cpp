@@ -12,7 +12,7 @@ namespace {
 
 using core::makeError;
 
-constexpr uint32_t kMostInstants = 256;
+constexpr uint32_t kMaxInstants = 256;
 constexpr uint32_t kFilterInstants = 15; ///< where the host wants the default
 
 uint32_t countDrawn(const HostInputs& inputs, const MotionBlurSettings& settings) {
@@ -26,7 +26,7 @@ uint32_t countDrawn(const HostInputs& inputs, const MotionBlurSettings& settings
 
 shader::InstantSurfaces
 describeRectangle(const HostInputs& inputs, const MotionBlurSettings& settings) {
-    const OwnBlended& drawn = inputs.drawn;
+    const HostBlended& drawn = inputs.drawn;
     shader::InstantSurfaces head{};
     head.sizePx = {inputs.width, inputs.height};
     if (drawn.area.extent.width > 0) {
@@ -34,7 +34,7 @@ describeRectangle(const HostInputs& inputs, const MotionBlurSettings& settings) 
         head.sizePx = {drawn.area.extent.width, drawn.area.extent.height};
     }
     head.instantCount = countDrawn(inputs, settings);
-    const uint32_t parts = drawn.partCount == 0 ? shader::kMostSurfaceParts : drawn.partCount;
+    const uint32_t parts = drawn.partCount == 0 ? shader::kMaxSurfaceParts : drawn.partCount;
     head.partCount = findsSurfaces(inputs, settings) ? std::min(parts, head.instantCount) : 1;
     return head;
 }
@@ -84,20 +84,20 @@ BlendedDraws describeDrawn(
 core::Status checkDrawn(
     const HostInputs& inputs, const MotionBlurSettings& settings, VkDeviceSize mostBufferBytes
 ) {
-    const OwnBlended& drawn = inputs.drawn;
+    const HostBlended& drawn = inputs.drawn;
     if (!drawn.record)
         return {};
-    if (drawn.instantCount > kMostInstants)
+    if (drawn.instantCount > kMaxInstants)
         return makeError(
             "motion blur: blendedInstants is {}, it must be 0 to {}",
             drawn.instantCount,
-            kMostInstants
+            kMaxInstants
         );
-    if (drawn.partCount > shader::kMostSurfaceParts)
+    if (drawn.partCount > shader::kMaxSurfaceParts)
         return makeError(
             "motion blur: blendedParts is {}, it must be 0 to {}",
             drawn.partCount,
-            shader::kMostSurfaceParts
+            shader::kMaxSurfaceParts
         );
     SHUTTER_TRY(checkArea(inputs));
     if (!findsSurfaces(inputs, settings))

@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
-#include "modules/motion_blur/passes/own_blended_pass.h"
+#include "modules/motion_blur/passes/host_blended_pass.h"
 #include "modules/motion_blur/settings.h"
 
 namespace shutter::motion_blur {

@@ -19,7 +19,7 @@ namespace {
 using core::makeError;
 using math::dmat4;
 
-constexpr float kMostScale = 16.0f;
+constexpr float kMaxScale = 16.0f;
 
 constexpr std::array kVectorFormats{
     VK_FORMAT_R16G16_SFLOAT,
@@ -39,9 +39,9 @@ constexpr std::array kDepthFormats{
 constexpr std::array kShareFormats{VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT};
 
 core::Status checkScale(std::string_view name, float value, float least) {
-    if (value >= least && value <= kMostScale)
+    if (value >= least && value <= kMaxScale)
         return {};
-    return makeError("motion blur: {} is {}, it must be {} to {}", name, value, least, kMostScale);
+    return makeError("motion blur: {} is {}, it must be {} to {}", name, value, least, kMaxScale);
 }
 
 struct CameraPair {

@@ -402,8 +402,8 @@ void HostDump::addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandl
     );
 }
 
-OwnReveal HostDump::wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder) {
-    OwnReveal wrapped;
+HostReveal HostDump::wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder) {
+    HostReveal wrapped;
     wrapped.byRayPipeline = inputs.reveal.byRayPipeline;
     wrapped.record = [this, &inputs, &recorder, slot = mSlots[frame].get()](const RevealTask& task
                      ) {

@@ -64,7 +64,7 @@ class HostDump {
     /// Wraps the host's reveal so that its images are read back, too; it refers to this, `inputs`
     /// and `recorder`.
     /// \param recorder the recorder of commands
-    [[nodiscard]] OwnReveal
+    [[nodiscard]] HostReveal
     wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder);
     /// The recording failed: discards it.
     void drop(uint32_t frame);

@@ -215,7 +215,7 @@ core::Status checkDevice(
     if (taken.size < least)
         return makeError(
             "motion blur: {} takes {} bytes, but {} x {} pixels of {} take {} or more: the image "
-            "is smaller than what is said of it, or has another format",
+            "is smaller than declared, or has another format",
             rule.name,
             taken.size,
             extent.width,

@@ -6,7 +6,7 @@
 #include "modules/motion_blur/embedding/host_blended.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response_shared.h"
-#include "shaders/motion_blur/own_samples_shared.h"
+#include "shaders/motion_blur/host_samples_shared.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 using core::makeError;
 
-constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
+constexpr uint32_t kMaxPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
 
 constexpr std::array kColorFormats{
     kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32};
@@ -126,12 +126,12 @@ core::Status checkSamples(
             "null",
             settings.method->name
         );
-    if (!(settings.raysPerPixel <= kMostOwnSamplesPerPixel))
+    if (!(settings.raysPerPixel <= kMaxHostSamplesPerPixel))
         return makeError(
             "motion blur: raysPerPixel is {}, but recordSamples answers from a list; it must be 0 "
             "to {}",
             settings.raysPerPixel,
-            kMostOwnSamplesPerPixel
+            kMaxHostSamplesPerPixel
         );
     const double bytes = double(settings.raysPerPixel) * inputs.width * inputs.height * 16.0;
     if (bytes > double(host.mostBufferBytes))
@@ -372,14 +372,14 @@ double timeOfFrameBefore(const HostInputs& inputs) {
     return inputs.rasterTime - scales.displayedPerRendered / share;
 }
 
-bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture) {
+bool isNativeImage(const HostImage& image, VkFormat format, VkExtent2D picture) {
     return (image.format == VK_FORMAT_UNDEFINED || image.format == format) && image.layer == 0 &&
            isWhole(image, picture);
 }
 
 HostImageRule colorRule(const HostInputs& inputs) {
     HostImageRule rule{.name = "color", .formats = kColorFormats};
-    if (isOwn(inputs.color, kHostColorFormat, pictureOf(inputs)))
+    if (isNativeImage(inputs.color, kHostColorFormat, pictureOf(inputs)))
         rule.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (!inputs.output.image)
         rule.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
@@ -392,7 +392,7 @@ HostImageRule outputRule(const HostInputs& inputs) {
         .formats = kColorFormats,
         .usage = VK_IMAGE_USAGE_STORAGE_BIT,
         .isWritten = true};
-    if (isOwn(inputs.output, kHostColorFormat, pictureOf(inputs)))
+    if (isNativeImage(inputs.output, kHostColorFormat, pictureOf(inputs)))
         rule.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return rule;
 }
@@ -409,14 +409,14 @@ HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings
 core::Status checkInputs(
     const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
 ) {
-    const uint32_t most = std::min(kMostPixels, host.images.mostPixels);
+    const uint32_t most = std::min(kMaxPixels, host.images.mostPixels);
     if (inputs.width < 1 || inputs.width > most || inputs.height < 1 || inputs.height > most)
         return makeError(
             "motion blur: the size is {} x {}, both must be 1 to {}{}",
             inputs.width,
             inputs.height,
             most,
-            most < kMostPixels ? ", the device's maxImageDimension2D" : ""
+            most < kMaxPixels ? ", the device's maxImageDimension2D" : ""
         );
     if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
         return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);

@@ -39,7 +39,7 @@ extern const HostImageRule kBlendedRule;
 [[nodiscard]] HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& movers);
 
 /// The part of the image that is used is one that the effect may read, write and copy itself.
-[[nodiscard]] bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture);
+[[nodiscard]] bool isNativeImage(const HostImage& image, VkFormat format, VkExtent2D picture);
 
 [[nodiscard]] HostMotionFrame
 describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings);

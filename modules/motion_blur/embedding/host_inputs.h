@@ -88,15 +88,15 @@ struct HostInputs {
     /// keeps itself, and HostMotion::response of it; 0: none.
     VkDeviceAddress response = 0;
     HostRays rays;           ///< for methods of RayNeed::Any, unless `reveal.record` is there
-    OwnReveal reveal;        ///< in place of `rays`: needs no tables and no HostDevice::rayTier
-    OwnSamples samples;      ///< for methods of RayNeed::Query, with settings.raysPerPixel
-    int64_t frameNumber = 0; ///< for InstantNoise::Turning
+    HostReveal reveal;       ///< in place of `rays`: needs no tables and no HostDevice::rayTier
+    HostSamples samples;     ///< for methods of RayNeed::Query, with settings.raysPerPixel
+    int64_t frameNumber = 0; ///< for InstantNoise::PerFrame
     HostMotion motion;       ///< for Method::readsInstantMotions; its `view` for all
     HostLastFrame last;
     HostImage deformedMotion;
     HostImage lastDeformedMotion; ///< with and without `last`
     HostImage blended;            ///< counts with isOff, as `drawn` does
-    OwnBlended drawn;             ///< under `blended`
+    HostBlended drawn;            ///< under `blended`
     BlurBudget budget;            ///< unlimited unless HostDevice::measures
     bool isOff = false;           ///< no blur: `output`, if there is one, gets a copy of `color`
     bool showsInputs = false;
@@ -113,7 +113,7 @@ struct HostReport {
     std::vector<gpu::PassTime> passes;
     double milliseconds = 0.0;
     Counters counters;
-    std::string gaveUp;
+    std::string droppedQuality;
 };
 
 } // namespace shutter::motion_blur

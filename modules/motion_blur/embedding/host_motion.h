@@ -14,11 +14,11 @@ struct ResponseTable;
 
 namespace shutter::motion_blur {
 
-inline constexpr double kMostKeyTime = 1.0e6; ///< of HostCameraKey::time
+inline constexpr double kMaxKeyTime = 1.0e6; ///< of HostCameraKey::time
 
 /// ShutterBlurCameraKey.
 struct HostCameraKey {
-    double time = 0.0; ///< within kMostKeyTime of 0
+    double time = 0.0; ///< within kMaxKeyTime of 0
     glm::dmat4 viewFromWorld{1.0};
     glm::dmat4 clipFromView{1.0};
 };

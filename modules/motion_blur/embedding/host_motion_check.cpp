@@ -22,8 +22,8 @@ namespace {
 using core::makeError;
 using math::dmat4;
 
-constexpr size_t kMostKeys = 64;
-constexpr uint32_t kMostRows = shader::kSkyKey; // exact as floats, and not the sky
+constexpr size_t kMaxKeys = 64;
+constexpr uint32_t kMaxRows = shader::kSkyKey; // exact as floats, and not the sky
 
 template <class T> core::Status checkSpan(std::string_view name, std::span<const T> values) {
     if (!values.empty() && !values.data())
@@ -78,22 +78,22 @@ core::Status checkKeyProjection(
 
 core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
     SHUTTER_TRY(checkSpan("keys", motion.keys));
-    if (motion.keys.empty() || motion.keys.size() > kMostKeys)
+    if (motion.keys.empty() || motion.keys.size() > kMaxKeys)
         return makeError(
-            "motion blur: keys holds {}, it needs 1 to {}", motion.keys.size(), kMostKeys
+            "motion blur: keys holds {}, it needs 1 to {}", motion.keys.size(), kMaxKeys
         );
     double before = -HUGE_VAL;
     bool hasRaster = false;
     for (size_t i = 0; i < motion.keys.size(); ++i) {
         const HostCameraKey& key = motion.keys[i];
         const std::string name = fmt::format("keys[{}]", i);
-        if (!(std::abs(key.time) <= kMostKeyTime))
+        if (!(std::abs(key.time) <= kMaxKeyTime))
             return makeError(
                 "motion blur: {}.time is {}, it must be {} to {}",
                 name,
                 key.time,
-                -kMostKeyTime,
-                kMostKeyTime
+                -kMaxKeyTime,
+                kMaxKeyTime
             );
         if (!(key.time > before))
             return makeError(
@@ -190,9 +190,9 @@ core::Status checkResponse(const shader::ResponseTable& table) {
 
 core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame) {
     SHUTTER_TRY(checkKeys(motion, frame));
-    if (motion.rowCount < 1 || motion.rowCount > kMostRows)
+    if (motion.rowCount < 1 || motion.rowCount > kMaxRows)
         return makeError(
-            "motion blur: rowCount is {}, it must be 1 to {}", motion.rowCount, kMostRows
+            "motion blur: rowCount is {}, it must be 1 to {}", motion.rowCount, kMaxRows
         );
     SHUTTER_TRY(checkMovers(motion));
     SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));

@@ -51,13 +51,14 @@ void setWorld(const HostInputs& inputs, shader::OverlayTable& table) {
 
 } // namespace
 
-shader::OverlayTable makeOverlayTable(const HostInputs& inputs, const MotionBlurInputs& own) {
+shader::OverlayTable
+makeOverlayTable(const HostInputs& inputs, const MotionBlurInputs& effectInputs) {
     const HostConvention& convention = inputs.convention;
     shader::OverlayTable table{};
     table.panels = bitOf(shader::kPanelMotion) | bitOf(shader::kPanelDepth);
-    if (own.entityId.isValid())
+    if (effectInputs.entityId.isValid())
         table.panels |= bitOf(shader::kPanelIds);
-    if (own.normal.isValid())
+    if (effectInputs.normal.isValid())
         table.panels |= bitOf(shader::kPanelNormal);
     if (!convention.cameras.areGiven)
         return table;
@@ -82,27 +83,28 @@ HostOverlay::HostOverlay(gpu::Device& device)
 
 graph::ImageHandle HostOverlay::add(
     graph::Graph& graph,
-    const MotionBlurInputs& own,
+    const MotionBlurInputs& effectInputs,
     graph::ImageHandle picture,
     VkDeviceAddress table
 ) const {
     const graph::TransientImageDesc& size = graph.describeImage(picture);
     const glm::uvec2 sizePx(size.width, size.height);
     // Something has to be bound for normals that are not there; no panel reads it.
-    const graph::ImageHandle normal = own.normal.isValid() ? own.normal : own.motionDepth;
+    const graph::ImageHandle normal =
+        effectInputs.normal.isValid() ? effectInputs.normal : effectInputs.motionDepth;
     picture = addPixelPass(
         graph,
         mPanels,
         "show inputs",
-        {own.motionDepth, normal},
+        {effectInputs.motionDepth, normal},
         picture,
         Push{sizePx, gpu::splitAddress(table)},
         mSampler
     );
-    if (!own.entityId.isValid())
+    if (!effectInputs.entityId.isValid())
         return picture;
     return addPixelPass(
-        graph, mIds, "show ids", {own.entityId}, picture, OverlayIdsPush{sizePx}, mSampler
+        graph, mIds, "show ids", {effectInputs.entityId}, picture, OverlayIdsPush{sizePx}, mSampler
     );
 }
 

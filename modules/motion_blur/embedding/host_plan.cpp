@@ -11,11 +11,11 @@ namespace shutter::motion_blur {
 namespace {
 
 /// A handle that no function of Vulkan may get; each call has another one.
-VkImage imagineImage(uintptr_t& next) {
+VkImage placeholderImage(uintptr_t& next) {
     return reinterpret_cast<VkImage>(++next);
 }
 
-void imagineMotion(const HostPlan& plan, ImaginedInputs& imagined) {
+void fillPlaceholderMotion(const HostPlan& plan, DryRunInputs& dryRun) {
     glm::dmat4 clipFromView(0.0); // perspective, reversed, infinitely far
     clipFromView[0][0] = clipFromView[1][1] = 1.0;
     clipFromView[2][3] = -1.0;
@@ -23,20 +23,20 @@ void imagineMotion(const HostPlan& plan, ImaginedInputs& imagined) {
     const glm::dmat4 unit(1.0);
     glm::dmat4 moved(1.0);
     moved[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
-    imagined.keys = {{0.0, unit, clipFromView}, {1.0, unit, clipFromView}};
-    imagined.matrices = {unit, moved};
-    imagined.movers.clear();
+    dryRun.keys = {{0.0, unit, clipFromView}, {1.0, unit, clipFromView}};
+    dryRun.matrices = {unit, moved};
+    dryRun.movers.clear();
     for (uint32_t row = 0; row < std::min(plan.moverCount, plan.rowCount); ++row)
-        imagined.movers.push_back({row, imagined.matrices});
-    HostMotion& motion = imagined.inputs.motion;
-    motion.keys = imagined.keys;
-    motion.movers = imagined.movers;
+        dryRun.movers.push_back({row, dryRun.matrices});
+    HostMotion& motion = dryRun.inputs.motion;
+    motion.keys = dryRun.keys;
+    motion.movers = dryRun.movers;
     motion.rowCount = plan.rowCount;
     motion.followsLast = true;
 }
 
 /// As many whole rows as hold the planned pixels.
-void imagineDrawn(const HostPlan& plan, OwnBlended& drawn) {
+void imagineDrawn(const HostPlan& plan, HostBlended& drawn) {
     drawn.record = [](const BlendedTask&) {};
     const uint64_t width = std::max(plan.width, 1u);
     const uint64_t rows = (plan.blendedPixels + width - 1) / width;
@@ -48,16 +48,16 @@ void imagineDrawn(const HostPlan& plan, OwnBlended& drawn) {
 
 } // namespace
 
-void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
+void fillPlaceholders(const HostPlan& plan, DryRunInputs& dryRun) {
     uintptr_t next = 0;
     const auto make = [&](VkFormat format) {
         HostImage image;
-        image.image = imagineImage(next);
+        image.image = placeholderImage(next);
         image.before.layout = VK_IMAGE_LAYOUT_GENERAL;
         image.format = format;
         return image;
     };
-    HostInputs& inputs = imagined.inputs;
+    HostInputs& inputs = dryRun.inputs;
     inputs = {};
     inputs.width = plan.width;
     inputs.height = plan.height;
@@ -79,7 +79,7 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
     if (plan.lendsLast)
         inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), inputs.entityId};
     if (inputs.last.entityId.image)
-        inputs.last.entityId.image = imagineImage(next);
+        inputs.last.entityId.image = placeholderImage(next);
     if (plan.givesDeformedMotion) {
         inputs.deformedMotion = make(kHostColorFormat);
         inputs.lastDeformedMotion = make(kHostColorFormat);
@@ -90,10 +90,10 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.blended = make(kHostColorFormat);
     inputs.reveal.record = [](const RevealTask&) {};
     inputs.samples.record = [](const SampleTask&) {};
-    imagineMotion(plan, imagined);
+    fillPlaceholderMotion(plan, dryRun);
     HostCameras& cameras = inputs.convention.cameras;
     cameras.areGiven = true;
-    cameras.clipFromView = cameras.clipFromViewBefore = imagined.keys.front().clipFromView;
+    cameras.clipFromView = cameras.clipFromViewBefore = dryRun.keys.front().clipFromView;
 }
 
 } // namespace shutter::motion_blur

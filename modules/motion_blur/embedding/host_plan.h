@@ -35,7 +35,7 @@ struct HostPlan {
 };
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.
-struct ImaginedInputs {
+struct DryRunInputs {
     HostInputs inputs;
     std::vector<HostCameraKey> keys;
     std::vector<HostMover> movers;
@@ -43,6 +43,6 @@ struct ImaginedInputs {
 };
 
 /// Into place: the inputs point to the other fields.
-void imagine(const HostPlan& plan, ImaginedInputs& imagined);
+void fillPlaceholders(const HostPlan& plan, DryRunInputs& dryRun);
 
 } // namespace shutter::motion_blur

@@ -7,9 +7,9 @@
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/passes/host_samples_pass.h"
 #include "modules/motion_blur/passes/instant_surfaces.h"
-#include "modules/motion_blur/passes/look_up.h"
-#include "modules/motion_blur/passes/own_samples_pass.h"
+#include "modules/motion_blur/passes/resolve_pass.h"
 #include "modules/motion_blur/shared_passes.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout) {
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mLookUp(device, true), mSurfaces(device), mOwnSamples(device),
+        : mDevice(device), mResolvePass(device, true), mSurfaces(device), mOwnSamples(device),
           mTrace(device, describeTrace(sceneLayout)) {}
 
     MotionBlurOutputs
@@ -45,20 +45,22 @@ class AdaptivePasses : public MethodPasses {
         const PassParams& params,
         SharedPasses& shared) override;
 
-    void count(uint32_t slot, Counters& counters) const override { mLookUp.count(slot, counters); }
+    void count(uint32_t slot, Counters& counters) const override {
+        mResolvePass.count(slot, counters);
+    }
 
   private:
     void addTrace(
         graph::Graph& graph,
         const graph::TimedRays& rays,
-        LookUpOutputs& found,
+        ResolvePassOutputs& found,
         const PassParams& params
     ) const;
 
     gpu::Device& mDevice;
-    LookUp mLookUp;
+    ResolvePass mResolvePass;
     InstantSurfacesPass mSurfaces;
-    OwnSamplesPass mOwnSamples;
+    HostSamplesPass mOwnSamples;
     SearchPipelines mTrace;
 };
 
@@ -83,19 +85,19 @@ MotionBlurOutputs AdaptivePasses::add(
         own.timed = gpu::splitAddress(inputs.timedRays->timedConstants);
     }
     params.setMethod(own);
-    LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
+    ResolvePassOutputs found = mResolvePass.add(graph, inputs, settings, params, shared);
     mSurfaces.add(graph, inputs.surfaces, found, params);
     if (inputs.samples)
         mOwnSamples.add(graph, *inputs.samples, found, params);
     else if (inputs.timedRays)
         addTrace(graph, *inputs.timedRays, found, params);
-    return mLookUp.end(graph, inputs, found, params, shared);
+    return mResolvePass.end(graph, inputs, found, params, shared);
 }
 
 void AdaptivePasses::addTrace(
     graph::Graph& graph,
     const graph::TimedRays& rays,
-    LookUpOutputs& found,
+    ResolvePassOutputs& found,
     const PassParams& params
 ) const {
     struct Data {
@@ -138,7 +140,7 @@ void AdaptivePasses::addTrace(
 
 void addAdaptiveLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
     ladder.changeMethod("resolved", "all rays", wanted.sampleCount, 0.3);
-    addLookUpLevels(ladder, wanted, 0.3);
+    addLookupLevels(ladder, wanted, 0.3);
 }
 
 } // namespace

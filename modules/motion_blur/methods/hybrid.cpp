@@ -5,7 +5,7 @@
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/passes/gather.h"
-#include "modules/motion_blur/passes/own_reveal_pass.h"
+#include "modules/motion_blur/passes/host_reveal_pass.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
 #include "modules/motion_blur/passes/revealed_layer.h"
@@ -62,14 +62,14 @@ MotionBlurOutputs HybridPasses::add(
     const TileMotionOutputs tiles = shared.tileMotion.add(graph, inputs.motionDepth, params);
     Clears clears;
     const SortedBlocks lists = BlockSorter::create(graph, params, true, clears);
-    const EmptyMask masks = RayMask::create(graph, params, clears);
+    const ClearedMask masks = RayMask::create(graph, params, clears);
     clears.declare(graph);
     const SortedBlocks sorted =
-        shared.sorter.add(graph, tiles, BlockSorter::getEmpty(lists, clears), params, true);
+        shared.sorter.add(graph, tiles, BlockSorter::getCleared(lists, clears), params, true);
     const RayMaskOutputs mask = mMask.add(
         graph,
         {inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere},
-        RayMask::getEmpty(masks, clears),
+        RayMask::getCleared(masks, clears),
         params
     );
     if (inputs.wantsCounters)
@@ -83,12 +83,12 @@ MotionBlurOutputs HybridPasses::add(
         mask.arguments,
         inputs.rays.value_or(graph::RayScene{}),
         inputs.slot,
-        inputs.countsOwn()};
-    if (inputs.reveal && inputs.countsOwn())
+        inputs.methodCountersEnabled()};
+    if (inputs.reveal && inputs.methodCountersEnabled())
         mReveal.countOwn(graph, mask.list, inputs.slot);
-    const RayRevealOutputs reveal = inputs.reveal
-                                        ? addOwnReveal(graph, mDevice, revealInputs, *inputs.reveal)
-                                        : mReveal.add(graph, revealInputs, params);
+    const RayRevealOutputs reveal =
+        inputs.reveal ? addHostReveal(graph, mDevice, revealInputs, *inputs.reveal)
+                      : mReveal.add(graph, revealInputs, params);
     const RevealedLayerInputs layerInputs{
         inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
     const RevealedLayer layer{

@@ -5,7 +5,7 @@
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/instant_surfaces.h"
-#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/passes/resolve_pass.h"
 #include "modules/motion_blur/shared_passes.h"
 
 namespace shutter::motion_blur {
@@ -16,7 +16,7 @@ namespace {
 
 class ResolvedPasses : public MethodPasses {
   public:
-    explicit ResolvedPasses(gpu::Device& device) : mLookUp(device, false), mSurfaces(device) {}
+    explicit ResolvedPasses(gpu::Device& device) : mResolvePass(device, false), mSurfaces(device) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -28,15 +28,17 @@ class ResolvedPasses : public MethodPasses {
         shader::ResolvedParams own{};
         own.motions = gpu::splitAddress(inputs.instantMotions->table);
         params.setMethod(own);
-        LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
+        ResolvePassOutputs found = mResolvePass.add(graph, inputs, settings, params, shared);
         mSurfaces.add(graph, inputs.surfaces, found, params);
-        return mLookUp.end(graph, inputs, found, params, shared);
+        return mResolvePass.end(graph, inputs, found, params, shared);
     }
 
-    void count(uint32_t slot, Counters& counters) const override { mLookUp.count(slot, counters); }
+    void count(uint32_t slot, Counters& counters) const override {
+        mResolvePass.count(slot, counters);
+    }
 
   private:
-    LookUp mLookUp;
+    ResolvePass mResolvePass;
     InstantSurfacesPass mSurfaces;
 };
 
@@ -56,7 +58,7 @@ const Method kResolved = {
     .settings = {"history", "instantNoise", "secondRaster", "uniformMotionPx"},
     .views = {"last", "second"},
     .addBudgetLevels = [](BudgetLadder& ladder, const MotionBlurSettings& wanted
-                       ) { addLookUpLevels(ladder, wanted, 1.0); },
+                       ) { addLookupLevels(ladder, wanted, 1.0); },
     .makePasses = [](gpu::Device& device, VkDescriptorSetLayout) -> std::unique_ptr<MethodPasses> {
         return std::make_unique<ResolvedPasses>(device);
     },

@@ -56,7 +56,7 @@ bool BlockSorter::listsStill(const gpu::Device& device) {
 BlockSorter::BlockSorter(gpu::Device& device)
     : mSampler(device.nearestSampler()), mSort(device, describeSort(device, false)),
       mSortForMask(device, describeSort(device, true)),
-      mHeaders(device, "block counters", kMostSlots * kHeaderBytes, 0, gpu::MemoryUse::Readback) {
+      mHeaders(device, "block counters", kMaxSlots * kHeaderBytes, 0, gpu::MemoryUse::Readback) {
     mHeaders.writeZeros();
 }
 
@@ -70,7 +70,7 @@ BlockSorter::create(graph::Graph& graph, const PassParams& params, bool forMask,
     return sorted;
 }
 
-SortedBlocks BlockSorter::getEmpty(const SortedBlocks& created, const Clears& clears) {
+SortedBlocks BlockSorter::getCleared(const SortedBlocks& created, const Clears& clears) {
     const auto get = [&](const BlockLists& lists) {
         return BlockLists{clears.get(lists.blocks), clears.get(lists.arguments)};
     };
@@ -83,7 +83,7 @@ SortedBlocks BlockSorter::add(
     Clears clears;
     const SortedBlocks created = create(graph, params, forMask, clears);
     clears.declare(graph);
-    return add(graph, tiles, getEmpty(created, clears), params, forMask);
+    return add(graph, tiles, getCleared(created, clears), params, forMask);
 }
 
 SortedBlocks BlockSorter::add(

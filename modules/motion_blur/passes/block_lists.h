@@ -52,9 +52,9 @@ class BlockSorter {
     create(graph::Graph& graph, const PassParams& params, bool forMask, Clears& clears);
 
     /// \param created of create() \param clears after Clears::declare()
-    [[nodiscard]] static SortedBlocks getEmpty(const SortedBlocks& created, const Clears& clears);
+    [[nodiscard]] static SortedBlocks getCleared(const SortedBlocks& created, const Clears& clears);
 
-    /// \param empty getEmpty() of lists that were created with the same forMask
+    /// \param empty getCleared() of lists that were created with the same forMask
     [[nodiscard]] SortedBlocks
     add(graph::Graph& graph,
         const TileMotionOutputs& tiles,
@@ -68,7 +68,7 @@ class BlockSorter {
     ) const;
 
     /// Reads the lists' lengths back, once all passes that append are declared.
-    /// \param slot of the frames in flight, below kMostSlots
+    /// \param slot of the frames in flight, below kMaxSlots
     void addCounters(
         graph::Graph& graph, const SortedBlocks& sorted, const PassParams& params, uint32_t slot = 0
     );
@@ -81,8 +81,8 @@ class BlockSorter {
     VkSampler mSampler;
     gpu::LazyPipeline mSort;
     gpu::LazyPipeline mSortForMask;
-    gpu::Buffer mHeaders;                            ///< by slot: of the lists, of the candidates
-    std::array<uint32_t, kMostSlots> mBlockCounts{}; ///< by slot: of the picture
+    gpu::Buffer mHeaders;                           ///< by slot: of the lists, of the candidates
+    std::array<uint32_t, kMaxSlots> mBlockCounts{}; ///< by slot: of the picture
 };
 
 } // namespace shutter::motion_blur

@@ -58,7 +58,7 @@ InstantSurfacesPass::InstantSurfacesPass(gpu::Device& device)
 void InstantSurfacesPass::add(
     graph::Graph& graph,
     std::span<const shader::InstantSurfaces> wanted,
-    LookUpOutputs& found,
+    ResolvePassOutputs& found,
     const PassParams& params
 ) const {
     for (const shader::InstantSurfaces& one : wanted)
@@ -68,7 +68,7 @@ void InstantSurfacesPass::add(
 void InstantSurfacesPass::addOne(
     graph::Graph& graph,
     const shader::InstantSurfaces& wanted,
-    LookUpOutputs& found,
+    ResolvePassOutputs& found,
     const PassParams& params
 ) const {
     struct Data {

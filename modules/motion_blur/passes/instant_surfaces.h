@@ -5,7 +5,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/passes/resolve_pass.h"
 #include "shaders/common/instant_surfaces.glsl"
 
 #include <span>
@@ -22,21 +22,21 @@ class InstantSurfacesPass {
   public:
     explicit InstantSurfacesPass(gpu::Device& device);
 
-    /// Fills LookUpOutputs::surfaces.
+    /// Fills ResolvePassOutputs::surfaces.
     /// \param wanted rectangles that lie in the picture; empty: none are needed
-    /// \param found of a LookUp; its counters and its picture come back as other versions
-    /// \param params that the LookUp used
+    /// \param found of a ResolvePass; its counters and its picture come back as other versions
+    /// \param params that the ResolvePass used
     void
     add(graph::Graph& graph,
         std::span<const shader::InstantSurfaces> wanted,
-        LookUpOutputs& found,
+        ResolvePassOutputs& found,
         const PassParams& params) const;
 
   private:
     void addOne(
         graph::Graph& graph,
         const shader::InstantSurfaces& wanted,
-        LookUpOutputs& found,
+        ResolvePassOutputs& found,
         const PassParams& params
     ) const;
 

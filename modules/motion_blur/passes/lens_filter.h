@@ -12,7 +12,7 @@ class LensFilter {
   public:
     explicit LensFilter(gpu::Device& device);
 
-    /// \param picture of LookUp, whose alpha has the radius of each pixel (resolved_lens.glsl)
+    /// \param picture of ResolvePass, whose alpha has the radius of each pixel (resolved_lens.glsl)
     /// \return another, with an alpha of 1
     [[nodiscard]] graph::ImageHandle
     add(graph::Graph& graph, graph::ImageHandle picture, const PassParams& params) const;

@@ -58,12 +58,12 @@ graph::BufferHandle createArguments(graph::Graph& graph, const char* name, uint3
 
 } // namespace
 
-EmptyMask RayMask::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
+ClearedMask RayMask::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
     const glm::uvec2 size = params.sizePx;
     const glm::uvec2 blocks = countBlocks(params);
     const VkDeviceSize pixelCount = VkDeviceSize(size.x) * size.y;
     const VkDeviceSize tileCount = VkDeviceSize(params.tileCount.x) * params.tileCount.y;
-    const EmptyMask created{
+    const ClearedMask created{
         graph.createImage("edges", {size.x, size.y, VK_FORMAT_R8_UNORM}),
         graph.createImage("edge blocks", {blocks.x, blocks.y, VK_FORMAT_R8_UNORM}),
         graph.createImage("ray mask", {size.x, size.y, VK_FORMAT_R8_UNORM}),
@@ -86,7 +86,7 @@ EmptyMask RayMask::create(graph::Graph& graph, const PassParams& params, Clears&
     return created;
 }
 
-EmptyMask RayMask::getEmpty(const EmptyMask& created, const Clears& clears) {
+ClearedMask RayMask::getCleared(const ClearedMask& created, const Clears& clears) {
     return {
         clears.get(created.edges),
         clears.get(created.edgeBlocks),
@@ -185,15 +185,15 @@ RayMask::Edges RayMask::addEdges(
 RayMaskOutputs
 RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const {
     Clears clears;
-    const EmptyMask created = create(graph, params, clears);
+    const ClearedMask created = create(graph, params, clears);
     clears.declare(graph);
-    return add(graph, inputs, getEmpty(created, clears), params);
+    return add(graph, inputs, getCleared(created, clears), params);
 }
 
 RayMaskOutputs RayMask::add(
     graph::Graph& graph,
     const RayMaskInputs& inputs,
-    const EmptyMask& empty,
+    const ClearedMask& empty,
     const PassParams& params
 ) const {
     const Edges edges = addEdges(graph, inputs, {empty.edges, empty.edgeBlocks}, params);

@@ -32,7 +32,7 @@ struct RayMaskOutputs {
 };
 
 /// What the ray mask writes, with nothing in it.
-struct EmptyMask {
+struct ClearedMask {
     graph::ImageHandle edges;
     graph::ImageHandle edgeBlocks;
     graph::ImageHandle mask;
@@ -52,17 +52,17 @@ class RayMask {
     RayMask(gpu::Device& device, MaskListing listing);
 
     /// What nothing has written, to be cleared with other lists.
-    [[nodiscard]] static EmptyMask
+    [[nodiscard]] static ClearedMask
     create(graph::Graph& graph, const PassParams& params, Clears& clears);
 
     /// \param created of create() \param clears after Clears::declare()
-    [[nodiscard]] static EmptyMask getEmpty(const EmptyMask& created, const Clears& clears);
+    [[nodiscard]] static ClearedMask getCleared(const ClearedMask& created, const Clears& clears);
 
-    /// \param empty of getEmpty()
+    /// \param empty of getCleared()
     [[nodiscard]] RayMaskOutputs
     add(graph::Graph& graph,
         const RayMaskInputs& inputs,
-        const EmptyMask& empty,
+        const ClearedMask& empty,
         const PassParams& params) const;
 
     /// The same with lists that it clears itself.

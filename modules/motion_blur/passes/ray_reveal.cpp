@@ -67,7 +67,7 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
       mHeaders(
           device,
           "ray mask counters",
-          kMostSlots * sizeof(shader::MaskHeader),
+          kMaxSlots * sizeof(shader::MaskHeader),
           0,
           gpu::MemoryUse::Readback
       ) {
@@ -231,7 +231,7 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
         }
     );
 
-    SHUTTER_CHECK(inputs.slot < kMostSlots, "slot {}", inputs.slot);
+    SHUTTER_CHECK(inputs.slot < kMaxSlots, "slot {}", inputs.slot);
     mTraces.at(inputs.slot) = !skyOnly;
     if (inputs.wantsCounters)
         addCounters(graph, revealed.list, inputs.slot);
@@ -277,7 +277,7 @@ void RayReveal::addCounters(graph::Graph& graph, graph::BufferHandle list, uint3
 
 RayReveal::Counts RayReveal::count(uint32_t slot) const {
     const auto& header = static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
-    const uint32_t rays = header.listedPixels - header.raylessPixels + header.raysBeyondOne;
+    const uint32_t rays = header.listedPixels - header.raylessPixels + header.extraRays;
     return {header.listedPixels + header.sharingPixels, mTraces.at(slot) ? rays : 0};
 }
 

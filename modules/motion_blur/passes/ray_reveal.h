@@ -24,7 +24,7 @@ struct RayRevealInputs {
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
     graph::RayScene rays;          ///< no TLAS: nothing but sky is found
-    uint32_t slot = 0;             ///< of the frames in flight, below kMostSlots
+    uint32_t slot = 0;             ///< of the frames in flight, below kMaxSlots
     bool wantsCounters = true;     ///< count() is called for the frame
 };
 
@@ -85,7 +85,7 @@ class RayReveal {
     std::vector<gpu::LazyPipeline> mPipelines;
     std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same where rays need them
     gpu::Buffer mHeaders;                                    ///< by slot
-    std::array<bool, kMostSlots> mTraces{};                  ///< by slot: not by mSky
+    std::array<bool, kMaxSlots> mTraces{};                   ///< by slot: not by mSky
 };
 
 } // namespace shutter::motion_blur

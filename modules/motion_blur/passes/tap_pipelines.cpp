@@ -28,7 +28,7 @@ const gpu::Pipeline& TapPipelines::find(const PassParams& params) const {
     if (known != mVariants.end()) {
         std::rotate(known, known + 1, mVariants.end());
     } else {
-        if (mVariants.size() == kMostVariants)
+        if (mVariants.size() == kMaxVariants)
             mVariants.erase(mVariants.begin());
         gpu::ComputePipelineDesc desc = mDesc;
         desc.specialization.insert(desc.specialization.end(), {params.sampleCount, response});

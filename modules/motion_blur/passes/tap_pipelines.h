@@ -32,11 +32,11 @@ class TapPipelines {
     /// For immediate recording: a later call may destroy it once the GPU has finished its work.
     [[nodiscard]] const gpu::Pipeline& find(const PassParams& params) const;
 
-    /// How many are kept for certain taps, kMostVariants at most.
+    /// How many are kept for certain taps, kMaxVariants at most.
     [[nodiscard]] size_t variantCount() const { return mVariants.size(); }
 
     /// Budgets and sliders go through many numbers of taps.
-    static constexpr size_t kMostVariants = 8;
+    static constexpr size_t kMaxVariants = 8;
 
   private:
     struct Variant {

@@ -29,11 +29,11 @@ gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
 uint32_t countTileRows(const gpu::Device& device) {
     if (isSoftware(device))
         return 1;
-    constexpr uint32_t kMostRows = 32;
+    constexpr uint32_t kMaxRows = 32;
     const VkPhysicalDeviceLimits& limits = device.limits();
     const uint32_t threads =
         std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
-    return std::min(kMostRows, std::bit_floor(threads / shader::kTileColumns));
+    return std::min(kMaxRows, std::bit_floor(threads / shader::kTileColumns));
 }
 
 TileMotion::TileMotion(gpu::Device& device)

@@ -42,9 +42,9 @@ extract::InstantTables InstantMotionBuffers::computeTables(
     if (const auto& second = context.secondRaster)
         secondFrame.emplace(*second->view->instant, *second->frame, second->view->jitterPx);
     const extract::RasterRecord* last = isOfFrameBefore(context, mLast) ? &*mLast : nullptr;
-    std::optional<extract::RasterRecord> drawnAnew;
+    std::optional<extract::RasterRecord> redrawn;
     if (const auto& drawn = context.lastRaster)
-        last = &drawnAnew.emplace(describeRaster(context.world, *drawn));
+        last = &redrawn.emplace(describeRaster(context.world, *drawn));
     extract::ViewRequest view = context.view;
     view.jitterPx = context.colorJitterPx;
     view.usesLens = instants.haveLens;

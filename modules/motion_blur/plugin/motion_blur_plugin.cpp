@@ -16,15 +16,17 @@ namespace {
 constexpr uint32_t kListed = shader::kCandidatesPerTile;
 
 void explainBudget(render::Explainer& explainer, const BudgetController& budget) {
-    const std::string& gaveUp = budget.current().gaveUp;
+    const std::string& droppedQuality = budget.current().droppedQuality;
     std::string reason = "the budget is unlimited";
     if (!budget.budget().isUnlimited())
-        reason = gaveUp.empty()
+        reason = droppedQuality.empty()
                      ? fmt::format("everything fits into {} ms", budget.budget().milliseconds)
                      : fmt::format(
-                           "{} ms is too little: gave up {}", budget.budget().milliseconds, gaveUp
+                           "{} ms is too little: gave up {}",
+                           budget.budget().milliseconds,
+                           droppedQuality
                        );
-    explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
+    explainer.decide(render::ExplainedKind::Work, "blur budget", {!droppedQuality.empty(), reason});
 }
 
 void explainCrowds(render::FinishedFrame& frame) {
@@ -80,7 +82,7 @@ void MotionBlurPlugin::chooseStandIn() {
     mStandIn->method = &getMethod(wanted.method->standIn);
 }
 
-core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::decide(const render::ViewFacts& facts) const {
     if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
     if (seesThroughLens(facts))
@@ -97,7 +99,7 @@ bool MotionBlurPlugin::seesThroughLens(const render::ViewFacts& facts) const {
     return method.readsLens && (method.readsInstantMotions ? facts.isDefocused : facts.usesLens);
 }
 
-core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::decideRays(const render::ViewFacts& facts) const {
     const Method& method = *settings().method;
     if (method.rays != RayNeed::Any)
         return {}; // it never does
@@ -152,7 +154,7 @@ core::Decision MotionBlurPlugin::askLastRaster(const render::ExtractContext& con
     return {true, "the frame before left none"};
 }
 
-core::Decision MotionBlurPlugin::askParticles(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::decideParticleDraw(const render::ViewFacts& facts) const {
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
     return {true, "particles are drawn over its picture"};

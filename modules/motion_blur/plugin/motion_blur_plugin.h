@@ -46,10 +46,10 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
     /// Skipped when nothing moves or the exposure is 0; no budget skips it.
-    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
 
     /// For methods of RayNeed::Any.
-    [[nodiscard]] core::Decision askRays(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decideRays(const render::ViewFacts& facts) const override;
     /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
@@ -68,7 +68,7 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] core::Decision askLastRaster(const render::ExtractContext& context
     ) const override;
     /// Where there is an exposure, whether or not anything else moves in it.
-    [[nodiscard]] core::Decision askParticles(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decideParticleDraw(const render::ViewFacts& facts) const override;
     void extract(render::ExtractContext& context) override;
 
     void declare(render::PostContext& context) override;

@@ -116,7 +116,7 @@ TEST(MakeInstant, ManyBoxSamplesResolveFinerTextures) {
     EXPECT_FLOAT_EQ(makeInstant({}, 0, 16, PixelModel::Box, 0).lodBias, -2.0f);
 }
 
-TEST(MakeInstant, AnotherSeedGivesOtherPlacesAndTheSameSeedTheSame) {
+TEST(MakeInstant, SeedsDetermineThePlaces) {
     std::set<std::pair<double, double>> firsts;
     for (uint32_t seed = 0; seed < 50; ++seed) {
         const dvec2 place = makeInstant({}, 3, 16, PixelModel::Box, seed).jitterPx;

@@ -55,7 +55,7 @@ TEST(Input, ATapWithinAFrameIsSeen) {
     EXPECT_FALSE(frame.isDown(Key::M));
 }
 
-TEST(Input, WhoLosesTheKeyboardHoldsNothing) {
+TEST(Input, LosingTheKeyboardFocusReleasesAllKeys) {
     InputCollector collector;
     collector.setKey(Key::W, true);
     collector.setButton(MouseButton::Left, true);
@@ -110,10 +110,11 @@ class InputScriptFile : public testing::Test {
         return readInputScript(mPath);
     }
 
-    void expectRefused(const std::string& event, const std::string& told) {
+    void expectRefused(const std::string& event, const std::string& reported) {
         const auto script = read("{\"version\": 1, \"events\": [\n" + event + "]}");
         ASSERT_FALSE(script) << event;
-        EXPECT_NE(script.error().message.find(told), std::string::npos) << script.error().message;
+        EXPECT_NE(script.error().message.find(reported), std::string::npos)
+            << script.error().message;
         EXPECT_NE(script.error().message.find(":2"), std::string::npos) << script.error().message;
     }
 
@@ -163,8 +164,8 @@ TEST_F(InputScriptFile, SticksStayWhereTheyWerePut) {
 TEST_F(InputScriptFile, WrongEventsAreRefusedByLineAndField) {
     expectRefused(R"({"time": 0, "key": "nokey"})", "events[0].key");
     expectRefused(R"({"time": -1, "key": "w"})", "events[0].time");
-    expectRefused(R"({"time": 0})", "must tell one of");
-    expectRefused(R"({"time": 0, "key": "w", "wheel": 1})", "must tell one of");
+    expectRefused(R"({"time": 0})", "must have one of");
+    expectRefused(R"({"time": 0, "key": "w", "wheel": 1})", "must have one of");
     expectRefused(R"({"time": 0, "wheel": 1, "action": "tap"})", "events[0].action");
     expectRefused(R"({"time": 0, "resize": [0, 5]})", "events[0].resize[0]");
     expectRefused(R"({"time": 0, "resize": [5]})", "events[0].resize");
@@ -256,7 +257,7 @@ TEST(CameraControl, TheWheelComesNearerAndStopsShortOfTheTarget) {
 
 constexpr double kStep = 1.0 / 120.0;
 
-TEST(StepClock, WhatIsDrawnIsNeverAheadOfWhatIsSimulated) {
+TEST(StepClock, TheDrawnTimeIsNeverAheadOfTheSimulatedTime) {
     StepClock clock(kStep);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> wall(0.0, 0.05);
@@ -309,7 +310,7 @@ TEST(StepClock, AHitchIsNotMadeUpFor) {
     EXPECT_EQ(clock.advance(std::numeric_limits<double>::infinity()).steps, 30u);
 }
 
-TEST(FitPicture, KeepsThePicturesShapeInTheMiddle) {
+TEST(FitPicture, AFittedPictureIsCentredAndKeepsItsShape) {
     const PixelRect wide = fitPicture({1280, 720}, {1280, 1000});
     EXPECT_EQ(wide.origin, math::dvec2(0.0, 140.0));
     EXPECT_EQ(wide.extent, math::dvec2(1280.0, 720.0));
@@ -318,7 +319,7 @@ TEST(FitPicture, KeepsThePicturesShapeInTheMiddle) {
     EXPECT_EQ(tall.extent, math::dvec2(50.0, 100.0));
 }
 
-TEST(FitPicture, FillsTheWindowWhereRoundingAloneParts) {
+TEST(FitPicture, AFittedPictureFillsTheWindowUpToRounding) {
     // Half of 961 x 541, rounded.
     const PixelRect rect = fitPicture({481, 271}, {961, 541});
     EXPECT_EQ(rect.origin, math::dvec2(0.0));

@@ -108,7 +108,7 @@ TEST(Results, AMethodWithoutSamplesHasNull) {
     EXPECT_TRUE(described.at("measurements").at(0).at("samples").is_null());
 }
 
-TEST(Results, WithoutTheReferenceThereIsNoEqualTime) {
+TEST(Results, EqualTimeRequiresTheReference) {
     EXPECT_TRUE(compareAtEqualTime(describeThree(), "truth", nameImage).is_null());
 }
 
@@ -218,7 +218,7 @@ TEST_F(SequenceResults, AMethodThatMissesTheErrorIsNamedWithItsBest) {
     EXPECT_EQ(sharp.at("psnr"), 20.0);
 }
 
-TEST_F(SequenceResults, OnlyFramesWithEverySampleCountAreAtEqualError) {
+TEST_F(SequenceResults, EqualErrorUsesOnlyFramesWithEverySampleCount) {
     ASSERT_FALSE(mResult.plan.isSwept(0));
     add("gather/15", 0, 1.0, 0.0);
     EXPECT_EQ(rowOfGather(0).at("psnr"), 38.0);
@@ -302,7 +302,7 @@ class JournalFile : public testing::Test {
     const std::filesystem::path mFile = mReport / "journal" / "case.json";
 };
 
-TEST_F(JournalFile, WhatWasMeasuredIsThereAgain) {
+TEST_F(JournalFile, MeasurementsAreReadBack) {
     {
         Journal journal(mFile, "a");
         ASSERT_TRUE(journal.addSample("hybrid/15", {{{"gather", 1.5}}, 3.0}).ok());
@@ -331,27 +331,27 @@ TEST_F(JournalFile, WhatWasMeasuredIsThereAgain) {
     EXPECT_TRUE(again.find("never").samples.empty());
 }
 
-TEST_F(JournalFile, WhatIsMeasuredAfterAllIsNoLongerSkipped) {
+TEST_F(JournalFile, ALaterMeasurementReplacesASkip) {
     Journal journal(mFile, "a");
     ASSERT_TRUE(journal.skip("truth/256", "too long").ok());
     ASSERT_TRUE(journal.addSample("truth/256", {}).ok());
     EXPECT_TRUE(Journal(mFile, "a").find("truth/256").skipped.empty());
 }
 
-TEST_F(JournalFile, AnotherFingerprintStartsAnew) {
+TEST_F(JournalFile, AnotherFingerprintStartsANewJournal) {
     ASSERT_TRUE(Journal(mFile, "a").addSample("x/1", {}).ok());
     EXPECT_TRUE(Journal(mFile, "b").records().empty());
     EXPECT_EQ(Journal(mFile, "a").records().size(), 1u);
 }
 
-TEST_F(JournalFile, WhatIsNoJournalStartsAnew) {
+TEST_F(JournalFile, AnInvalidFileStartsANewJournal) {
     for (const char* text : {"", "{", "[]", "{\"fingerprint\":\"a\",\"records\":{\"x\":{}}}"}) {
         ASSERT_TRUE(io::writeFileText(mFile, text).ok());
         EXPECT_TRUE(Journal(mFile, "a").records().empty()) << text;
     }
 }
 
-TEST_F(JournalFile, WhatDoesNotFitStartsAnewAndNamesTheField) {
+TEST_F(JournalFile, AWrongFieldStartsANewJournalAndIsNamed) {
     PictureFacts facts;
     facts.image = "images/x.png";
     facts.errorMap = "images/x.flip.png";
@@ -365,27 +365,27 @@ TEST_F(JournalFile, WhatDoesNotFitStartsAnewAndNamesTheField) {
     const auto bytes = io::readFileBytes(mFile, 1 << 20);
     ASSERT_TRUE(bytes);
     const std::string whole(bytes.value().begin(), bytes.value().end());
-    const auto expectAnew = [&](const std::string& from, const std::string& to, const char* mention
-                            ) {
-        std::string text = whole;
-        const size_t place = text.find(from);
-        ASSERT_NE(place, std::string::npos) << from;
-        text.replace(place, from.size(), to);
-        ASSERT_TRUE(io::writeFileText(mFile, text).ok());
-        testing::internal::CaptureStderr();
-        EXPECT_TRUE(Journal(mFile, "a").records().empty()) << to;
-        const std::string told = testing::internal::GetCapturedStderr();
-        EXPECT_NE(told.find(mention), std::string::npos) << told;
-        EXPECT_NE(told.find(mFile.string()), std::string::npos) << told;
-    };
-    expectAnew("\"rays traced\": 7", "\"rays traced\": 1e300", "counters.rays traced");
-    expectAnew("\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced");
-    expectAnew("images/x.png", "/etc/hostname", "leaves the report's folder");
-    expectAnew("images/x.flip.png", "../../../../x.png", "leaves the report's folder");
-    expectAnew("images/x.exr", "../../../x.exr", "leaves the report's folder");
-    expectAnew("\"gather\"", "\"gather\", 2", "must have 3 elements");
-    expectAnew("\"samples\"", "\"more\": 1, \"samples\"", "is not a field");
-    expectAnew("\"wall\": 3.0", "\"wall\": []", "wall");
+    const auto expectNewJournal =
+        [&](const std::string& from, const std::string& to, const char* mention) {
+            std::string text = whole;
+            const size_t place = text.find(from);
+            ASSERT_NE(place, std::string::npos) << from;
+            text.replace(place, from.size(), to);
+            ASSERT_TRUE(io::writeFileText(mFile, text).ok());
+            testing::internal::CaptureStderr();
+            EXPECT_TRUE(Journal(mFile, "a").records().empty()) << to;
+            const std::string reported = testing::internal::GetCapturedStderr();
+            EXPECT_NE(reported.find(mention), std::string::npos) << reported;
+            EXPECT_NE(reported.find(mFile.string()), std::string::npos) << reported;
+        };
+    expectNewJournal("\"rays traced\": 7", "\"rays traced\": 1e300", "counters.rays traced");
+    expectNewJournal("\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced");
+    expectNewJournal("images/x.png", "/etc/hostname", "leaves the report's folder");
+    expectNewJournal("images/x.flip.png", "../../../../x.png", "leaves the report's folder");
+    expectNewJournal("images/x.exr", "../../../x.exr", "leaves the report's folder");
+    expectNewJournal("\"gather\"", "\"gather\", 2", "must have 3 elements");
+    expectNewJournal("\"samples\"", "\"more\": 1, \"samples\"", "is not a field");
+    expectNewJournal("\"wall\": 3.0", "\"wall\": []", "wall");
 }
 
 TEST_F(JournalFile, AFolderInItsPlaceIsNoJournal) {

@@ -34,7 +34,7 @@ namespace {
 
 using image::Image;
 
-TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
+TEST(Suites, SuitesAreFoundByNameAndTheirShotsAreValidOptions) {
     for (const char* name : {"paper", "hard", "scaling", "edges", "lens"}) {
         auto suite = findSuite(name);
         ASSERT_TRUE(suite.ok()) << name;
@@ -156,9 +156,9 @@ class CaseSetupTest : public testing::Test {
     test::TempFolder mFolder;
 };
 
-TEST_F(CaseSetupTest, WhatTheSceneDoesNotNameIsNotPartOfIt) {
+TEST_F(CaseSetupTest, UnreferencedFilesAreNotPartOfTheScene) {
     const std::string before = hash();
-    mFolder.write("notes.txt", "beside the scene");
+    mFolder.write("notes.txt", "next to the scene");
     mFolder.write("below/deep/file.bin", "below the scene");
     std::filesystem::create_symlink("nowhere", mFolder.path() / "broken");
     EXPECT_EQ(hash(), before);
@@ -179,7 +179,7 @@ TEST_F(CaseSetupTest, TheTruthDependsOnThePixelAndNotOnAntiAliasing) {
     EXPECT_NE(setUp(smooth).truthHash, setUp().truthHash);
 }
 
-TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
+TEST(Sweep, SampleCountsRiseWithinAMethodAndContainItsDefaultOnce) {
     std::vector<const game::MethodInfo*> methods;
     for (const game::MethodInfo& method : listContenders())
         methods.push_back(&method);
@@ -198,7 +198,7 @@ TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
     }
 }
 
-TEST(Contenders, AreTheMethodsAndThePapersWithItsNumbers) {
+TEST(Contenders, ContendersAreTheMethodsAndThePapersWithItsNumbers) {
     for (const game::MethodInfo& method : game::listMethods()) {
         const auto found = findContender(method.name);
         ASSERT_TRUE(found.ok()) << found.error().message;
@@ -261,7 +261,7 @@ TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
     EXPECT_EQ(plan.points.size(), 4u);
 }
 
-TEST(SequencePlan, WithAntiAliasingThereAreMethodsOfOneRasterAtTheirDefaults) {
+TEST(SequencePlan, AntiAliasingAllowsOnlyMethodsOfOneRasterAtTheirDefaults) {
     const SequencePlan plan = planSequence(
         findMethods({"sharp", "gather", "accumulate", "truth"}), 48, 64, game::AntiAliasing::Taa
     );
@@ -389,7 +389,7 @@ TEST(FrameJudge, TheFirstFrameHasNothingBeforeIt) {
     EXPECT_EQ(metrics.at("flip"), image::computeFlip(makePicture(2), makePicture(1)).mean);
 }
 
-TEST(FrameJudge, EachPictureIsComparedWithItsOwnOneBefore) {
+TEST(FrameJudge, EachPictureIsComparedWithItsPredecessor) {
     FrameJudge frames;
     judge(
         frames,
@@ -429,7 +429,7 @@ TEST(FrameJudge, EachPictureIsComparedWithItsOwnOneBefore) {
     );
 }
 
-TEST(FrameJudge, GoesOnFromPicturesAsFromAFrameThatItJudged) {
+TEST(FrameJudge, JudgingResumesFromPicturesAsFromAFrame) {
     FrameJudge whole;
     judge(whole, {makeFrame("truth", 1), makeFrame("gather/15", 2)});
     FrameJudge resumed;
@@ -454,7 +454,7 @@ TEST(FrameJudge, HdrFlipIsOfLinearPicturesWhereBothAreThere) {
     EXPECT_FALSE(listIds(judged[0]).contains("hdrFlip"));
 }
 
-TEST(FrameJudge, WritesItsPicturesOrSaysWhyNot) {
+TEST(FrameJudge, PicturesAreWrittenOrAnErrorIsReported) {
     const test::TempFolder folder;
     std::vector<FramePicture> pictures = {makeFrame("truth", 1), makeFrame("gather/15", 2)};
     pictures[0].file = folder.path() / "truth.png";
@@ -467,7 +467,7 @@ TEST(FrameJudge, WritesItsPicturesOrSaysWhyNot) {
     EXPECT_NE(judged.error().message.find("gather.png"), std::string::npos);
 }
 
-TEST(CachedTruth, IsTakenWhereBothPicturesAreOfTheCasesSize) {
+TEST(CachedTruth, ACachedTruthIsUsedIfBothPicturesHaveTheCasesSize) {
     const test::TempFolder folder;
     const TruthFiles files = nameTruthFiles(folder.path(), "truth");
     EXPECT_FALSE(readCachedTruth(nameTruthFiles("", "truth"), 4, 3));
@@ -491,9 +491,9 @@ TEST(CachedTruth, AnythingElseCountsAsNoneAndIsNamed) {
     const auto expectNone = [&](const std::filesystem::path& file, const char* mention) {
         testing::internal::CaptureStderr();
         EXPECT_FALSE(readCachedTruth(files, 4, 3)) << file;
-        const std::string told = testing::internal::GetCapturedStderr();
-        EXPECT_NE(told.find(file.filename().string()), std::string::npos) << told;
-        EXPECT_NE(told.find(mention), std::string::npos) << told;
+        const std::string reported = testing::internal::GetCapturedStderr();
+        EXPECT_NE(reported.find(file.filename().string()), std::string::npos) << reported;
+        EXPECT_NE(reported.find(mention), std::string::npos) << reported;
     };
     for (const std::filesystem::path& file : {files.display, files.linear}) {
         ASSERT_TRUE(writeTruth(files, {good, good}));

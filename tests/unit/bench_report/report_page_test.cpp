@@ -66,7 +66,7 @@ bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
 
-TEST_F(ReportPage, HoldsTheResultsThePicturesAndTheLibrary) {
+TEST_F(ReportPage, ThePageContainsTheResultsThePicturesAndTheLibrary) {
     json results = makeResults();
     results["suite"] = "unmistakable name";
     ASSERT_TRUE(writeReportPage(results, mFolder).ok());
@@ -77,21 +77,21 @@ TEST_F(ReportPage, HoldsTheResultsThePicturesAndTheLibrary) {
     EXPECT_FALSE(contains(page, "{{results}}"));
 }
 
-TEST_F(ReportPage, NamesAMissingPicture) {
+TEST_F(ReportPage, AMissingPictureIsNamed) {
     json results = makeResults();
     results["cases"][0]["measurements"] = {{{"errorMap", "images/absent.png"}}};
     const std::string sentence = refusal(results);
     EXPECT_TRUE(contains(sentence, "images/absent.png': no such file")) << sentence;
 }
 
-TEST_F(ReportPage, RefusesAPictureThatIsNoPng) {
+TEST_F(ReportPage, APictureOtherThanPngIsRefused) {
     write("images/truth.png", "GIF89a");
     EXPECT_TRUE(contains(refusal(makeResults()), "truth.png' is not a PNG"));
     write("images/truth.png", "");
     EXPECT_TRUE(contains(refusal(makeResults()), "truth.png' is not a PNG"));
 }
 
-TEST_F(ReportPage, TakesNoPictureFromOutsideItsFolder) {
+TEST_F(ReportPage, APictureOutsideTheFolderIsRefused) {
     for (const char* path : {"../secret.png", "/etc/hostname", "images/../../secret.png"}) {
         json results = makeResults();
         results["cases"][0]["truth"]["image"] = path;
@@ -99,7 +99,7 @@ TEST_F(ReportPage, TakesNoPictureFromOutsideItsFolder) {
     }
 }
 
-TEST_F(ReportPage, RefusesOtherSchemasAndVersions) {
+TEST_F(ReportPage, OtherSchemasAndVersionsAreRefused) {
     json results = makeResults();
     results["schema"] = "another";
     EXPECT_TRUE(contains(refusal(results), "schema 'shutter-bench'"));
@@ -114,7 +114,7 @@ TEST_F(ReportPage, RefusesOtherSchemasAndVersions) {
     EXPECT_TRUE(contains(refusal(results), "'methods'"));
 }
 
-TEST_F(ReportPage, KeepsTheOldPageWhenTheNewOneFails) {
+TEST_F(ReportPage, TheOldPageRemainsIfTheNewOneFails) {
     ASSERT_TRUE(writeReportPage(makeResults(), mFolder).ok());
     const std::string before = readPage();
     fs::remove(mFolder / "images/truth.png");
@@ -122,7 +122,7 @@ TEST_F(ReportPage, KeepsTheOldPageWhenTheNewOneFails) {
     EXPECT_EQ(readPage(), before);
 }
 
-TEST_F(ReportPage, IsMadeAgainFromTheResultsFile) {
+TEST_F(ReportPage, TheReportIsRebuiltFromTheResultsFile) {
     write("results.json", makeResults().dump());
     ASSERT_TRUE(remakeReportPage(mFolder).ok());
     const std::string again = readPage();
@@ -130,7 +130,7 @@ TEST_F(ReportPage, IsMadeAgainFromTheResultsFile) {
     EXPECT_EQ(readPage(), again);
 }
 
-TEST_F(ReportPage, SaysThatTheResultsFileIsMissingOrBroken) {
+TEST_F(ReportPage, AMissingOrBrokenResultsFileIsReported) {
     const core::Status missing = remakeReportPage(mFolder);
     ASSERT_FALSE(missing.ok());
     EXPECT_TRUE(contains(missing.error().message, "results.json': no such file"));
@@ -140,7 +140,7 @@ TEST_F(ReportPage, SaysThatTheResultsFileIsMissingOrBroken) {
     EXPECT_TRUE(contains(broken.error().message, "results.json' is not valid JSON"));
 }
 
-TEST_F(ReportPage, RefusesAResultsFileThatIsNestedWithoutEnd) {
+TEST_F(ReportPage, AnEndlesslyNestedResultsFileIsRefused) {
     // So deep that what walks it, and calls itself for each level, would run out of stack.
     constexpr size_t kLevels = 1'000'000;
     const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
@@ -153,19 +153,19 @@ TEST_F(ReportPage, RefusesAResultsFileThatIsNestedWithoutEnd) {
     EXPECT_FALSE(fs::exists(mFolder / "index.html"));
 }
 
-TEST(FillPage, PutsEachValueInEachOfItsPlaces) {
+TEST(FillPage, EachValueIsInsertedInEachOfItsPlaces) {
     const auto filled = fillPage("{ } <{{a}}>{{b}}{{a}}", {{"a", "one"}, {"b", ""}});
     ASSERT_TRUE(filled.ok());
     EXPECT_EQ(filled.value(), "{ } <one>one");
 }
 
-TEST(FillPage, DoesNotSearchWhatItPutIn) {
+TEST(FillPage, InsertedTextIsNotSearchedAgain) {
     const auto filled = fillPage("{{a}} {{b}}", {{"a", "{{b}} }} {{"}, {"b", "two"}});
     ASSERT_TRUE(filled.ok());
     EXPECT_EQ(filled.value(), "{{b}} }} {{ two");
 }
 
-TEST(FillPage, RefusesAPlaceWithoutAValueAndAValueWithoutAPlace) {
+TEST(FillPage, APlaceWithoutAValueAndAValueWithoutAPlaceAreRefused) {
     const auto unknown = fillPage("{{a}}{{missing}}", {{"a", "x"}});
     ASSERT_FALSE(unknown.ok());
     EXPECT_NE(unknown.error().message.find("'missing'"), std::string::npos);
@@ -175,7 +175,7 @@ TEST(FillPage, RefusesAPlaceWithoutAValueAndAValueWithoutAPlace) {
     EXPECT_FALSE(fillPage("{{a}} {{a", {{"a", "x"}}).ok()) << "it does not end";
 }
 
-TEST(EscapeForScript, LeavesNothingThatEndsTheElementOrTheLine) {
+TEST(EscapeForScript, EscapedTextEndsNeitherTheElementNorTheLine) {
     const nlohmann::json value = {
         {"a", "</script><!-- </SCRIPT \xE2\x80\xA8 and \xE2\x80\xA9 <b>"},
         {"</key>", "\xE2\x80\x9C quoted \xE2\x80\x9D \xE2\x80"}}; // cut short: not UTF-8
@@ -276,7 +276,7 @@ TEST_F(PagePicturesTest, WholePicturesAreJpegAndCropsAreThePixelsOfTheFile) {
     EXPECT_EQ(parts.at(1).at("uri"), "data:image/png;base64," + encodeBase64(bytes.value()));
 }
 
-TEST_F(PagePicturesTest, OfARivalAtEqualTimeOnlyTheFirstCropIsThere) {
+TEST_F(PagePicturesTest, ARivalAtEqualTimeHasOnlyTheFirstCrop) {
     const json files = encode();
     EXPECT_FALSE(files.at("whole").contains("rival.png"));
     const json& parts = files.at("parts").at("rival.png");
@@ -288,7 +288,7 @@ TEST_F(PagePicturesTest, OfARivalAtEqualTimeOnlyTheFirstCropIsThere) {
     EXPECT_FALSE(encode().at("parts").contains("rival.png"));
 }
 
-TEST_F(PagePicturesTest, RefusesCropsThatAreNoneOrLeaveThePicture) {
+TEST_F(PagePicturesTest, EmptyCropsAndCropsOutsideThePictureAreRefused) {
     json& crop = mResults["cases"][0]["crops"][0];
     crop["x"] = kWidth - 31;
     EXPECT_TRUE(contains(refusal(), "leaves")) << refusal();
@@ -311,7 +311,7 @@ std::string encodeText(std::string_view text) {
 }
 
 // RFC 4648, section 10.
-TEST(EncodeBase64, AgreesWithTheVectorsOfTheStandard) {
+TEST(EncodeBase64, EncodingAgreesWithTheVectorsOfTheStandard) {
     EXPECT_EQ(encodeText(""), "");
     EXPECT_EQ(encodeText("f"), "Zg==");
     EXPECT_EQ(encodeText("fo"), "Zm8=");
@@ -321,7 +321,7 @@ TEST(EncodeBase64, AgreesWithTheVectorsOfTheStandard) {
     EXPECT_EQ(encodeText("foobar"), "Zm9vYmFy");
 }
 
-TEST(EncodeBase64, ComesBackThroughTheDecoder) {
+TEST(EncodeBase64, EncodedBytesAreDecodedUnchanged) {
     std::vector<uint8_t> bytes(256);
     std::iota(bytes.begin(), bytes.end(), uint8_t(0));
     const auto decoded = io::decodeDataUri("data:image/png;base64," + encodeBase64(bytes));

@@ -48,7 +48,7 @@ Image addNoise(Image base, float amplitude, std::mt19937& random) {
     return base;
 }
 
-TEST(Flicker, ChangesOfTheTruthAreNone) {
+TEST(Flicker, ChangesOfTheTruthAreNoFlicker) {
     const Image dark = makeFlat(0.25f);
     const Image bright = makeFlat(0.75f);
     EXPECT_EQ(computeFlicker({dark, dark}, {dark, dark}), 0.0);
@@ -63,7 +63,7 @@ TEST(Flicker, AnErrorThatStaysIsNone) {
     EXPECT_EQ(computeFlicker({darkError, dark}, {brightError, bright}), 0.0);
 }
 
-TEST(Flicker, IsTheMeanOfWhatTheTruthDoesNotDo) {
+TEST(Flicker, FlickerIsTheMeanChangeThatTheTruthLacks) {
     const Image truth = makeFlat(0.5f);
     const Image up = addCheckerboard(truth, 0.125f, 0);
     const Image down = addCheckerboard(truth, 0.125f, 1);
@@ -79,7 +79,7 @@ TEST(Flicker, ANaNIsTheLargestChange) {
     EXPECT_EQ(computeFlicker({truth, truth}, {broken, truth}), 2.0 / 6.0);
 }
 
-TEST(FixedNoise, KeepsACheckerboardAndNoSlope) {
+TEST(FixedNoise, ACheckerboardIsFixedNoiseAndASlopeIsNot) {
     const Image truth = makeFlat(0.5f);
     const Image fine = computeFineError(addCheckerboard(truth, 0.125f), truth);
     EXPECT_EQ(fine.width, truth.width - 2);
@@ -93,7 +93,7 @@ TEST(FixedNoise, KeepsACheckerboardAndNoSlope) {
         EXPECT_EQ(value, 0.0f);
 }
 
-TEST(FixedNoise, IsTheAmplitudeOfAPatternThatStays) {
+TEST(FixedNoise, FixedNoiseIsTheAmplitudeOfAConstantPattern) {
     // Over a truth that changes, as when a camera flies behind a dirty window.
     const Image fine[] = {
         computeFineError(addCheckerboard(makeFlat(0.25f), 0.125f), makeFlat(0.25f)),
@@ -102,7 +102,7 @@ TEST(FixedNoise, IsTheAmplitudeOfAPatternThatStays) {
     EXPECT_EQ(computeFixedNoise(powers), 0.125);
 }
 
-TEST(FixedNoise, IsNoneWhereTheNoiseIsNewInEachFrame) {
+TEST(FixedNoise, FixedNoiseIsZeroForIndependentNoise) {
     std::mt19937 random(3);
     const Image truth = makeFlat(0.5f, 128, 128);
     const Image a = computeFineError(addNoise(truth, 0.125f, random), truth);
@@ -126,7 +126,7 @@ TEST(FixedNoise, ANaNIsAnError) {
     EXPECT_EQ(computeFineError(makeFlat(0.5f, 2, 9), makeFlat(0.5f, 2, 9)).pixels.size(), 0u);
 }
 
-TEST(FilmPsnr, AveragesTheSquaresAndNotTheDecibels) {
+TEST(FilmPsnr, FilmPsnrAveragesSquaresAndNotDecibels) {
     const double equal[] = {30.0, 30.0};
     EXPECT_NEAR(computeFilmPsnr(equal), 30.0, 1e-12);
     const double apart[] = {20.0, std::numeric_limits<double>::infinity()};

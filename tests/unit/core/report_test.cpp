@@ -39,14 +39,14 @@ TEST(CheckDeathTest, AnInequalityPrintsBothValues) {
     EXPECT_DEATH(SHUTTER_CHECK_EQ(left, 5), "left == 5 \\(4 and 5\\)");
 }
 
-TEST(Result, HoldsTheErrorItWasMadeOf) {
+TEST(Result, AResultHasTheErrorItWasMadeFrom) {
     const Result<int> result = makeError("{}: field '{}' is missing", "a.gltf", "asset");
     EXPECT_FALSE(result.ok());
     EXPECT_FALSE(static_cast<bool>(result));
     EXPECT_EQ(result.error().message, "a.gltf: field 'asset' is missing");
 }
 
-TEST(ResultDeathTest, AskingForWhatIsNotThereIsAProgrammersMistake) {
+TEST(ResultDeathTest, AccessingAMissingValueOrErrorAborts) {
     Result<int> failed = makeError("no such file");
     EXPECT_DEATH((void)failed.value(), "value\\(\\) of an error: no such file");
     EXPECT_DEATH((void)std::as_const(failed).value(), "no such file");
@@ -67,7 +67,7 @@ TEST_F(Log, WarningsArePrintedByDefaultAndInfoIsNot) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "shutter: warning: mip 2 is missing\n");
 }
 
-TEST_F(Log, InfoIsPrintedWhenAskedFor) {
+TEST_F(Log, InfoIsPrintedOnRequest) {
     setLogLevel(LogLevel::Info);
     testing::internal::CaptureStderr();
     logInfo("device {}", 1);
@@ -126,7 +126,7 @@ class Terminal {
     FILE* mSlave = nullptr;
 };
 
-TEST(FormatProgress, DrawsTheShareDoneAndTheTimeLeft) {
+TEST(FormatProgress, TheBarShowsTheShareDoneAndTheTimeLeft) {
     EXPECT_EQ(
         formatProgress("rendering", 5, 10, 3.0),
         "rendering [===============               ] 5/10  3 s left"
@@ -134,12 +134,12 @@ TEST(FormatProgress, DrawsTheShareDoneAndTheTimeLeft) {
     EXPECT_EQ(formatProgress("x", 1, 4, 2.0), "x [=======                       ] 1/4  6 s left");
 }
 
-TEST(FormatProgress, AtTheStartNoTimeIsKnownAndAtTheEndNoneIsLeft) {
+TEST(FormatProgress, TheTimeLeftIsUnknownAtTheStartAndZeroAtTheEnd) {
     EXPECT_EQ(formatProgress("x", 0, 2, 9.0), "x [                              ] 0/2  ? s left");
     EXPECT_EQ(formatProgress("x", 2, 2, 9.0), "x [==============================] 2/2  0 s left");
 }
 
-TEST(Progress, IsSilentForTheFirstSecondAndThenDraws) {
+TEST(Progress, TheBarIsSilentForTheFirstSecondAndThenDraws) {
     Terminal terminal;
     if (!terminal.file())
         GTEST_SKIP() << "no pseudo-terminal is to be had here";
@@ -152,7 +152,7 @@ TEST(Progress, IsSilentForTheFirstSecondAndThenDraws) {
     EXPECT_EQ(terminal.takeOutput(), "\r\x1b[K" + formatProgress("rendering", 2, 4, 1.25));
 }
 
-TEST(Progress, RedrawsAtMostTenTimesASecondAndCleansUp) {
+TEST(Progress, TheBarIsRedrawnAtMostTenTimesPerSecondAndCleanedUp) {
     Terminal terminal;
     if (!terminal.file())
         GTEST_SKIP() << "no pseudo-terminal is to be had here";
@@ -168,7 +168,7 @@ TEST(Progress, RedrawsAtMostTenTimesASecondAndCleansUp) {
     EXPECT_EQ(terminal.takeOutput(), "\r\x1b[K");
 }
 
-TEST(Progress, IsSilentWhereTheOutputIsNoTerminal) {
+TEST(Progress, TheBarIsSilentIfTheOutputIsNoTerminal) {
     FILE* file = tmpfile();
     ASSERT_NE(file, nullptr);
     {

@@ -158,7 +158,7 @@ TEST(WholeFile, AFileThatIsThereKeepsItsOwnerWhereTheSystemLetsUs) {
     EXPECT_EQ(found.st_gid, kOther);
 }
 
-TEST(WholeFile, AnotherHardLinkKeepsWhatItHad) {
+TEST(WholeFile, OtherHardLinksKeepTheOldContents) {
     const TempFolder folder;
     const fs::path file = folder.write("a.png", "old");
     fs::create_hard_link(file, folder.path() / "kept.png");

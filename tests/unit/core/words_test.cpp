@@ -13,7 +13,7 @@
 namespace shutter::core {
 namespace {
 
-TEST(Words, OneIsSingularAndAllElseIsPlural) {
+TEST(Words, ACountOfOneIsSingularAndOthersPlural) {
     EXPECT_EQ(countOf(0, "frame"), "0 frames");
     EXPECT_EQ(countOf(1, "frame"), "1 frame");
     EXPECT_EQ(countOf(2, "frame"), "2 frames");
@@ -49,7 +49,7 @@ TEST(FrameRate, AFractionIsKeptAndANumberStaysWhatItIs) {
     EXPECT_EQ(describe(parse("29.97")), "29.97");
 }
 
-TEST(FrameRate, OfAFractionTheTimeOfAFrameIsRoundedOnce) {
+TEST(FrameRate, FrameTimesOfAFractionAreRoundedOnce) {
     const FrameRate rate = parse("24000/1001");
     EXPECT_EQ(rate.secondsOf(24000.0), 1001.0);
     EXPECT_EQ(rate.secondsOf(240000000.0), 10010000.0);
@@ -58,7 +58,7 @@ TEST(FrameRate, OfAFractionTheTimeOfAFrameIsRoundedOnce) {
         ASSERT_EQ(FrameRate(29.97).secondsOf(frame), frame / 29.97) << frame;
 }
 
-TEST(FrameRate, WhatIsNoRateAboveZeroIsRefusedInASentence) {
+TEST(FrameRate, InvalidRatesAreRefusedInASentence) {
     for (const char* text :
          {"",
           "0",
@@ -86,7 +86,7 @@ TEST(FrameRate, WhatIsNoRateAboveZeroIsRefusedInASentence) {
     }
 }
 
-TEST(FrameRate, IsStoredAsTheSimplestFractionThatIsTheSameNumber) {
+TEST(FrameRate, ARateIsStoredAsTheSimplestEqualFraction) {
     EXPECT_EQ(rationalOf("24000/1001"), (RationalRate{24000, 1001}));
     EXPECT_EQ(rationalOf("24"), (RationalRate{24, 1}));
     EXPECT_EQ(rationalOf("23.976"), (RationalRate{2997, 125}));
@@ -134,7 +134,7 @@ const SettingRow<Paint>& rowOf(std::string_view name) {
     return *findRow(kPaint, name);
 }
 
-TEST(SettingRow, WhatIsWrittenIsReadBackTheSame) {
+TEST(SettingRow, WrittenValuesAreReadBackUnchanged) {
     const Paint paint{true, 7, 0.1f, kInfinity, Colour::Green};
     Paint read;
     for (const SettingRow<Paint>& row : kPaint)

@@ -76,7 +76,7 @@ TEST_P(EveryDemo, TheSameControlsGiveTheSameBits) {
     EXPECT_EQ(first->camera(), second->camera());
 }
 
-TEST_P(EveryDemo, StandsAnyControlsForAMinuteAndEnds) {
+TEST_P(EveryDemo, ADemoToleratesAnyControlsForAMinuteAndEnds) {
     const auto demo = make(GetParam());
     Random random(23);
     DemoControls controls;
@@ -142,7 +142,7 @@ TEST_P(EveryDemo, CamerasChangeByACutAndTheBodyLeavesTheBlur) {
     EXPECT_FALSE(demo->isBodyExcluded());
 }
 
-TEST_P(EveryDemo, SaysWhatItIsAndHowToPlayIt) {
+TEST_P(EveryDemo, ADemoHasATitleAndControlDescriptions) {
     const auto demo = make(GetParam());
     EXPECT_STREQ(demo->name(), GetParam());
     EXPECT_FALSE(demo->isOver());
@@ -158,7 +158,7 @@ TEST_P(EveryDemo, SaysWhatItIsAndHowToPlayIt) {
     }
 }
 
-TEST_P(EveryDemo, RefusesASceneThatLacksWhatItPlaysWith) {
+TEST_P(EveryDemo, ASceneWithoutRequiredNodesIsRefused) {
     const fs::path folder = fs::path(SHUTTER_BUILD_DIR) / "test_demo_scenes";
     fs::create_directories(folder);
     const std::string name = GetParam();
@@ -184,7 +184,7 @@ TEST(Demos, RefuseANameThatIsNone) {
     EXPECT_EQ(refused.error().message, "demo 'chess' is none of: rally, gallery, spin");
 }
 
-TEST(Demos, ListThemselves) {
+TEST(Demos, DemosAreListed) {
     for (const DemoInfo& info : listDemos())
         EXPECT_STREQ(make(info.name)->name(), info.name);
     EXPECT_EQ(listDemos().size(), 3u);

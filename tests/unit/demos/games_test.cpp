@@ -83,7 +83,7 @@ TEST_F(Gallery, AHitIsWorthTheTargetsSpeedOnceAndKnocksItOver) {
     const ecs::Entity entity = addTarget({0, 1, -5}, -5.5);
     const dvec3 face(0.0, 1.5, -5.0);
     EXPECT_FALSE(hitTarget(mWorld.registry, face + dvec3(0, 0, 0.3), 0.1)) << "before it";
-    EXPECT_FALSE(hitTarget(mWorld.registry, face + dvec3(0.5, 0, 0), 0.1)) << "beside it";
+    EXPECT_FALSE(hitTarget(mWorld.registry, face + dvec3(0.5, 0, 0), 0.1)) << "next to it";
     const auto hit = hitTarget(mWorld.registry, face + dvec3(0.2, 0.1, 0.1), 0.1);
     ASSERT_TRUE(hit.has_value());
     EXPECT_EQ(hit->target, entity);
@@ -129,7 +129,7 @@ TEST_F(Gallery, BallsBounceLoseEnergyAndArePickedUp) {
     EXPECT_TRUE(scene::isHidden(mWorld, entity));
 }
 
-TEST_F(Gallery, WhereAllBallsFlyTheOldestIsThrownAgainAndWithoutOneNothingHappens) {
+TEST_F(Gallery, TheOldestBallIsThrownAgainIfAllFlyAndNothingHappensWithoutBalls) {
     throwBall(mWorld, {0, 1, 0}, {0, 0, -20}, 0.0);
     const ecs::Entity first = addBall();
     const ecs::Entity second = addBall();
@@ -159,12 +159,12 @@ TEST(Aim, RecoilKicksAndDecays) {
     EXPECT_NEAR(aim.kick, 0.0, 1e-3);
 }
 
-TEST(Aim, StaysWithinItsBoundsAndTurnsToTheRight) {
+TEST(Aim, AimStaysWithinItsBoundsAndTurnsToTheRight) {
     Aim aim;
     for (int i = 0; i < kDemoStepsPerSecond * 3; ++i)
         stepAim(aim, {.turn = 1.0, .drive = 1.0});
-    EXPECT_EQ(aim.yaw, kMostYaw);
-    EXPECT_EQ(aim.pitch, kMostPitch);
+    EXPECT_EQ(aim.yaw, kMaxYaw);
+    EXPECT_EQ(aim.pitch, kMaxPitch);
     const dvec3 ahead = aimPose(aim, {}).rotation * dvec3(0, 0, -1);
     EXPECT_GT(ahead.x, 0.5);
     EXPECT_GT(ahead.y, 0.3);
@@ -209,7 +209,7 @@ TEST(RallyCar, BrakesStopItWithinTheirDeceleration) {
     EXPECT_LT(car.speed(), -1.0) << "then it backs up";
 }
 
-TEST(RallyCar, WithoutThrottleItsEnergyNeverGrows) {
+TEST(RallyCar, EnergyNeverGrowsWithoutThrottle) {
     for (const bool handBrake : {false, true})
         for (const double turn : {-1.0, 0.0, 0.4}) {
             CarState car;
@@ -223,7 +223,7 @@ TEST(RallyCar, WithoutThrottleItsEnergyNeverGrows) {
         }
 }
 
-TEST(RallyCar, SteersToTheSideThatIsAskedForWithinItsGrip) {
+TEST(RallyCar, SteeringTurnsToTheRequestedSideWithinGrip) {
     CarState car;
     car.velocity = {0.0, -15.0};
     const DemoControls right{.turn = 1.0, .drive = 0.5};
@@ -277,7 +277,7 @@ TEST(RallyTrack, GatesCountInTheirDirectionAndWidthOnly) {
     const Gate gate{{10, 5}, {0, -1}};
     EXPECT_TRUE(passesGate(gate, {10, 6}, {10, 4}));
     EXPECT_FALSE(passesGate(gate, {10, 4}, {10, 6})) << "backwards";
-    EXPECT_FALSE(passesGate(gate, {17, 6}, {17, 4})) << "beside it";
+    EXPECT_FALSE(passesGate(gate, {17, 6}, {17, 4})) << "next to it";
     EXPECT_FALSE(passesGate(gate, {10, 8}, {10, 6})) << "not there yet";
 }
 
@@ -301,7 +301,7 @@ TEST(RallyTrack, LapsCountAtTheFirstGateWhateverWasMissed) {
     EXPECT_EQ(missed.gatesPassed, 3);
 }
 
-TEST(RallyTrack, KnowsTheRoadFromTheMeadow) {
+TEST(RallyTrack, RoadAndMeadowAreDistinguished) {
     const RallyTrack track = makeSquare();
     for (const Gate& gate : track.gates())
         EXPECT_NEAR(track.measureDistance(gate.place), 0.0, 1e-9);
@@ -355,7 +355,7 @@ TEST(RallyPosts, AHitPostIsThrownAndTheCarPaysForIt) {
     );
 }
 
-TEST(Rod, ItsEnergyDoesNotGrowAndItComesToRest) {
+TEST(Rod, EnergyDoesNotGrowAndTheRodComesToRest) {
     for (const double spin : {-8.0, 0.5, 14.0}) {
         Rod rod;
         rod.place = {0.0, 1.5, 0.0};
@@ -373,7 +373,7 @@ TEST(Rod, ItsEnergyDoesNotGrowAndItComesToRest) {
     }
 }
 
-TEST(ChaseCamera, ComesToRestBehindTheCarWithoutSwinging) {
+TEST(ChaseCamera, TheCameraComesToRestBehindTheCarWithoutSwinging) {
     CarState car;
     car.heading = 1.0;
     ChaseCamera camera;
@@ -397,13 +397,13 @@ TEST(Ride, SpeedsUpBrakesAndStopsAtItsBounds) {
     Ride ride;
     for (int i = 0; i < kDemoStepsPerSecond * 10; ++i)
         stepRide(ride, {.drive = 1.0});
-    EXPECT_EQ(ride.rate, kMostRideRate);
+    EXPECT_EQ(ride.rate, kMaxRideRate);
     for (int i = 0; i < kDemoStepsPerSecond * 10; ++i)
         stepRide(ride, {.drive = -1.0});
     EXPECT_EQ(ride.rate, 0.0);
 }
 
-TEST(Ride, WithoutDriveItSlowsDown) {
+TEST(Ride, TheRideSlowsDownWithoutDrive) {
     Ride ride{.rate = 2.0};
     double before = ride.rate;
     for (int i = 0; i < kDemoStepsPerSecond; ++i) {
@@ -418,7 +418,7 @@ TEST(Ride, GearsTurnTogetherAndNoStepIsHalfATurn) {
     stepRide(ride, {});
     EXPECT_NEAR(ride.fan, kFanGear * ride.carousel, 1e-12);
     EXPECT_NEAR(wrapAngle(ride.mill), kMillGear * ride.carousel, 1e-12);
-    EXPECT_LT(kMostRideRate * kFanGear * kDemoStepSeconds, kPi);
+    EXPECT_LT(kMaxRideRate * kFanGear * kDemoStepSeconds, kPi);
 }
 
 TEST(RideRules, KeepingTheRateScoresByTheSecond) {
@@ -458,12 +458,12 @@ TEST(RideRules, AnotherRateIsAskedForEveryNineSeconds) {
         stepRules(rules, {}, 1.0, false, random);
         rates.insert(rules.targetRate);
         ASSERT_GT(rules.targetRate, 0.5);
-        ASSERT_LT(rules.targetRate, kMostRideRate - kRateTolerance);
+        ASSERT_LT(rules.targetRate, kMaxRideRate - kRateTolerance);
     }
     EXPECT_EQ(rates.size(), 5u);
 }
 
-TEST(WrapAngle, LeavesOutWholeTurns) {
+TEST(WrapAngle, WholeTurnsAreRemoved) {
     EXPECT_NEAR(wrapAngle(2.0 * kPi + 0.3), 0.3, 1e-12);
     EXPECT_NEAR(wrapAngle(-0.3), -0.3, 1e-12);
     EXPECT_NEAR(wrapAngle(1.5 * kPi), -0.5 * kPi, 1e-12);
@@ -497,7 +497,7 @@ TEST(Sparks, AllThatTheDemosEmitIsValid) {
         EXPECT_TRUE(scene::validateEmitter(make(3)).ok());
 }
 
-TEST(Sparks, OfThePostsThatACarMeetsFlyOnce) {
+TEST(Sparks, SparksOfHitPostsFlyOnce) {
     ecs::Registry registry;
     const ecs::Entity post = registry.create();
     registry.add(post, Post{});

@@ -172,7 +172,7 @@ TEST_F(ChangesOfARegistry, AddingRemovingAndDestroyingChangeTheStructure) {
     EXPECT_EQ(list(destroyed), Listed{entities[0]});
 }
 
-TEST_F(ChangesOfARegistry, AnotherTypesChangesAreItsOwn) {
+TEST_F(ChangesOfARegistry, ChangesOfComponentTypesAreIndependent) {
     registry.add<Health>(entities[0]);
     EXPECT_TRUE(list(changes()).empty());
 }
@@ -194,7 +194,7 @@ TEST_F(ChangesOfARegistry, ReadersAreIndependent) {
     EXPECT_EQ(list(changes()), Listed{entities[2]});
 }
 
-TEST_F(ChangesOfARegistry, MoreThanIsRememberedMeansAll) {
+TEST_F(ChangesOfARegistry, AnOverflowedLogReportsAllAsChanged) {
     ChangeCursor late = cursor;
     for (size_t i = 0; i < ChangeLog::kRemembered; ++i)
         registry.get<Position>(entities[i % 2]).x += 1.0;
@@ -213,7 +213,7 @@ TEST_F(ChangesOfARegistry, ATypeNobodyHasHadNeverChangesUntilItIsAdded) {
     EXPECT_TRUE(constant.changesSince<Health>(none).all);
 }
 
-TEST_F(ChangesOfARegistry, AnotherRegistryHasChangedAsAWhole) {
+TEST_F(ChangesOfARegistry, AnotherRegistryReportsAllAsChanged) {
     Registry second;
     EXPECT_TRUE(second.changesSince<Position>(cursor).all) << "nobody has a position there";
     EXPECT_FALSE(second.changesSince<Position>(cursor).all);

@@ -161,7 +161,7 @@ TEST(Entity, ComparisonLooksAtIndexAndGeneration) {
     EXPECT_LT((Entity{3, 1}), (Entity{3, 2}));
 }
 
-TEST(Entity, HashedContainersTellGenerationsApart) {
+TEST(Entity, HashedContainersSeparateGenerations) {
     const std::unordered_set<Entity> set = {{1, 0}, {1, 1}, {0, 1}, {1, 0}};
     EXPECT_EQ(set.size(), 3u);
     EXPECT_TRUE(set.contains({1, 1}));
@@ -254,7 +254,7 @@ template <class Range> std::vector<uint32_t> listIndices(const Range& view) {
 
 using Indices = std::vector<uint32_t>;
 
-TEST(View, IsEmptyWhereNoEntityHasTheComponent) {
+TEST(View, AViewIsEmptyIfNoEntityHasTheComponent) {
     Registry registry;
     EXPECT_EQ(listIndices(registry.view<A>()), Indices{});
     registry.add<A>(registry.create());
@@ -263,7 +263,7 @@ TEST(View, IsEmptyWhereNoEntityHasTheComponent) {
     EXPECT_EQ(listIndices(registry.view<NeverAdded, A>()), Indices{});
 }
 
-TEST(View, VisitsExactlyTheEntitiesWithAllComponents) {
+TEST(View, AViewVisitsExactlyTheEntitiesWithAllComponents) {
     Registry registry;
     for (int i = 0; i < 6; ++i) {
         const Entity entity = registry.create();
@@ -281,7 +281,7 @@ TEST(View, VisitsExactlyTheEntitiesWithAllComponents) {
     EXPECT_EQ(seen, (Indices{1, 3, 5}));
 }
 
-TEST(View, FollowsTheDenseOrderOfTheSmallestStorage) {
+TEST(View, AViewFollowsTheDenseOrderOfTheSmallestStorage) {
     Registry registry;
     std::vector<Entity> all;
     for (int i = 0; i < 4; ++i)
@@ -298,7 +298,7 @@ TEST(View, FollowsTheDenseOrderOfTheSmallestStorage) {
     EXPECT_EQ(listIndices(registry.view<B, A>()), (Indices{3, 0, 2, 1}));
 }
 
-TEST(View, OfAConstRegistryOrAConstComponentGivesConstReferences) {
+TEST(View, ConstRegistriesAndComponentsGiveConstReferences) {
     using FromConst = decltype(std::declval<const Registry&>().view<A, const B>());
     using Mixed = decltype(std::declval<Registry&>().view<A, const B>());
     static_assert(std::is_same_v<
@@ -316,7 +316,7 @@ TEST(View, OfAConstRegistryOrAConstComponentGivesConstReferences) {
     EXPECT_EQ(sum, 9);
 }
 
-TEST(View, AllowsStructuralChangesAfterTheLoopAndAfterABreak) {
+TEST(View, StructuralChangesAreAllowedAfterTheLoopAndAfterABreak) {
     Registry registry;
     const Entity entity = registry.create();
     registry.add<A>(entity);

@@ -27,7 +27,7 @@ image::Image makeGrey(uint32_t width, uint32_t height, uint32_t channels, float 
     return picture;
 }
 
-TEST(Environment, IsRefusedWithItsNumbers) {
+TEST(Environment, InvalidEnvironmentsAreRefusedWithTheirNumbers) {
     const auto messageOf = [](const image::Image& picture, const EnvironmentSettings& settings) {
         const auto made = makeEnvironment(picture, settings);
         return made ? std::string() : made.error().message;
@@ -44,7 +44,7 @@ TEST(Environment, IsRefusedWithItsNumbers) {
     EXPECT_NE(messageOf(good, {.rotationDegrees = 400.0}).find("400"), std::string::npos);
 }
 
-TEST(Environment, HoldsNothingButNumbersThatHalfFloatsHold) {
+TEST(Environment, AnEnvironmentHasOnlyValuesThatHalfFloatsRepresent) {
     image::Image picture = makeGrey(64, 32, 4, 1.0f);
     picture.at(3, 3, 0) = std::numeric_limits<float>::quiet_NaN();
     picture.at(9, 3, 1) = std::numeric_limits<float>::infinity();
@@ -70,7 +70,7 @@ TEST(Environment, HoldsNothingButNumbersThatHalfFloatsHold) {
     EXPECT_EQ(glm::unpackHalf1x16(made.value().background.front().rgba[0]), 2.0f);
 }
 
-TEST(Environment, IsBlackAtNoIntensityWhateverItsPictureHolds) {
+TEST(Environment, AnEnvironmentOfZeroIntensityIsBlack) {
     image::Image picture = makeGrey(64, 32, 3, 1.0f);
     picture.at(9, 3, 1) = std::numeric_limits<float>::infinity();
     const auto made = makeEnvironment(picture, {.intensity = 0.0});
@@ -80,29 +80,29 @@ TEST(Environment, IsBlackAtNoIntensityWhateverItsPictureHolds) {
         ASSERT_EQ(glm::unpackHalf1x16(halves[i]), i % 4 == 3 ? 1.0f : 0.0f);
 }
 
-TEST(Environment, OfOneChannelIsGrey) {
+TEST(Environment, AnEnvironmentOfOneChannelIsGrey) {
     const auto made = makeEnvironment(makeGrey(64, 32, 1, 0.5f), {});
     ASSERT_TRUE(made);
     const math::vec3 seen = evaluateIrradiance(made.value().irradiance, {0, 1, 0});
     EXPECT_LT(glm::distance(seen, math::vec3(0.5f)), 1e-3f);
 }
 
-TEST(Environment, HasEveryLevelOfItsBackgroundAndIsNoWiderThanDevicesTake) {
-    const auto made = makeEnvironment(makeGrey(kMostWidth * 2, kMostWidth, 1, 0.5f), {});
+TEST(Environment, AnEnvironmentHasAllLevelsAndFitsDevices) {
+    const auto made = makeEnvironment(makeGrey(kMaxWidth * 2, kMaxWidth, 1, 0.5f), {});
     ASSERT_TRUE(made);
     const auto& levels = made.value().background;
-    EXPECT_EQ(levels.front().width, kMostWidth);
+    EXPECT_EQ(levels.front().width, kMaxWidth);
     ASSERT_EQ(levels.size(), 13u);
     for (size_t i = 1; i < levels.size(); ++i)
-        EXPECT_EQ(levels[i].width, kMostWidth >> i);
+        EXPECT_EQ(levels[i].width, kMaxWidth >> i);
 }
 
 TEST(Environment, APositiveRotationTurnsItToTheLeft) {
     const auto made = makeEnvironment(makeGrey(64, 32, 1, 0.5f), {.rotationDegrees = 90.0});
     ASSERT_TRUE(made);
     // The forward direction is now on the left: the map's middle is there.
-    const math::vec3 looked = made.value().mapFromWorld * math::vec3(-1, 0, 0);
-    EXPECT_LT(glm::distance(looked, math::vec3(0, 0, -1)), 1e-6f);
+    const math::vec3 sampled = made.value().mapFromWorld * math::vec3(-1, 0, 0);
+    EXPECT_LT(glm::distance(sampled, math::vec3(0, 0, -1)), 1e-6f);
 }
 
 TEST(Environment, ASkysSunIsNotAmongWhatLights) {
@@ -116,7 +116,7 @@ TEST(Environment, ASkysSunIsNotAmongWhatLights) {
     EXPECT_GT(brightest, 50.0f * mirrored);
 }
 
-TEST(Directions, AreWhereTheHeaderSays) {
+TEST(Directions, DirectionsAreThoseOfTheHeader) {
     const auto expectAt = [](math::dvec2 uv, dvec3 direction) {
         EXPECT_LT(glm::distance(directionAt(uv), direction), 1e-12) << uv.x << " " << uv.y;
     };
@@ -128,7 +128,7 @@ TEST(Directions, AreWhereTheHeaderSays) {
     expectAt({0.3, 1.0}, {0, -1, 0});
 }
 
-TEST(Directions, AndPlacesAreInversesInShadersToo) {
+TEST(Directions, DirectionsAndPlacesAreInversesInShadersToo) {
     for (int i = 0; i < 40; ++i)
         for (int j = 1; j < 20; ++j) {
             const math::dvec2 uv((i + 0.5) / 40.0, j / 20.0);
@@ -139,7 +139,7 @@ TEST(Directions, AndPlacesAreInversesInShadersToo) {
         }
 }
 
-TEST(Directions, OfThePolesHaveAPlace) {
+TEST(Directions, DirectionsOfThePolesHaveAPlace) {
     for (const double y : {1.0, -1.0}) {
         const math::vec2 place = shader::equirectangularPlace(math::vec3(0, float(y), 0));
         EXPECT_FLOAT_EQ(place.x, 0.5f);
@@ -212,7 +212,7 @@ constexpr View kViews[6] = {
     {{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
     {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}};
 
-TEST(Cube, EachDirectionIsSeenOnTheSideThatShowsIt) {
+TEST(Cube, EachDirectionMapsToItsFace) {
     constexpr uint32_t kSize = 64;
     std::array<image::Image, 6> sides;
     for (size_t i = 0; i < 6; ++i) {
@@ -247,8 +247,8 @@ double luminanceOf(math::vec3 c) {
     return glm::dot(c, math::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-TEST(SkyModel, IsFiniteAndNotNegativeForEverySunAndHaze) {
-    for (const double turbidity : {kLeastTurbidity, 2.5, 6.0, kMostTurbidity})
+TEST(SkyModel, RadianceIsFiniteAndNotNegativeForEverySunAndHaze) {
+    for (const double turbidity : {kMinTurbidity, 2.5, 6.0, kMaxTurbidity})
         for (const double elevation : {-90.0, -20.0, 0.0, 0.5, 5.0, 45.0, 89.9, 90.0}) {
             const Sky sky({.turbidity = turbidity, .toSun = sunAt(elevation)});
             for (int i = 0; i < 400; ++i) {
@@ -263,7 +263,7 @@ TEST(SkyModel, IsFiniteAndNotNegativeForEverySunAndHaze) {
         }
 }
 
-TEST(SkyModel, HasTheZenithLuminanceOfItsSource) {
+TEST(SkyModel, ZenithLuminanceIsThatOfTheSource) {
     // Preetham 1999, A.2, by hand: T = 3, the sun 45 degrees high.
     const double chi = (4.0 / 9.0 - 3.0 / 120.0) * (std::numbers::pi / 2.0);
     const double kcd = (4.0453 * 3.0 - 4.9710) * std::tan(chi) - 0.2155 * 3.0 + 2.4192;
@@ -272,7 +272,7 @@ TEST(SkyModel, HasTheZenithLuminanceOfItsSource) {
     EXPECT_NEAR(luminanceOf(sky.radianceOf({0, 1, 0})), kcd / klx * 2.0, 2e-3);
 }
 
-TEST(SkyModel, StandsInProportionToItsSun) {
+TEST(SkyModel, TheSkysRatioToItsSunIsPhysical) {
     const Sky one({.toSun = sunAt(40.0), .sunIlluminance = math::vec3(1.0f)});
     const Sky three({.toSun = sunAt(40.0), .sunIlluminance = math::vec3(3.0f)});
     for (const dvec3& d : {dvec3(0, 1, 0), dvec3(1, 0, 0), dvec3(0, -1, 0)})
@@ -282,14 +282,14 @@ TEST(SkyModel, StandsInProportionToItsSun) {
     EXPECT_EQ(dark.discRadiance(), math::vec3(0.0f));
 }
 
-TEST(SkyModel, IsBlueAwayFromTheSunAndBrightestBesideIt) {
+TEST(SkyModel, TheSkyIsBlueAwayFromTheSunAndBrightestNextToIt) {
     const Sky sky({.toSun = sunAt(50.0)});
     const math::vec3 away = sky.radianceOf(glm::normalize(dvec3(0, 1, 0.7)));
     EXPECT_GT(away.z, 1.5f * away.x);
     EXPECT_GT(luminanceOf(sky.radianceOf(sunAt(50.0))), 3.0 * luminanceOf(away));
 }
 
-TEST(SkyModel, LightsAHorizontalSurfaceByAClearDaysShare) {
+TEST(SkyModel, TheSkyLightsAHorizontalSurfaceByAClearDaysShare) {
     // Outside, a clear sky gives a fifth to a tenth of what the sun gives: 10 to 20 klx of 100.
     const Sky sky({.toSun = sunAt(50.0)});
     double sum = 0.0;
@@ -302,7 +302,7 @@ TEST(SkyModel, LightsAHorizontalSurfaceByAClearDaysShare) {
     EXPECT_LT(sum, 0.3);
 }
 
-TEST(SkyModel, DrawsTheSunWhereItIsInTheBackgroundAlone) {
+TEST(SkyModel, TheSunIsDrawnAtItsPlaceInTheBackgroundOnly) {
     const SkySettings settings{.toSun = glm::normalize(dvec3(0.4, 0.5, -0.6))};
     const SkyPictures pictures = drawSky(settings, 1024);
     EXPECT_EQ(pictures.light.width, 256u);
@@ -350,7 +350,7 @@ dvec3 integrate(const image::Image& picture, dvec3 normal) {
 const dvec3 kNormals[] = {
     {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0.6, 0.48, 0.64}};
 
-TEST(Irradiance, OfOneColourIsThatColour) {
+TEST(Irradiance, IrradianceOfOneColourIsThatColour) {
     const auto factors = projectIrradiance(draw(64, [](dvec3) { return dvec3(0.2, 0.5, 3.0); }));
     for (const dvec3& n : kNormals) {
         const math::vec3 seen = evaluateIrradiance(factors, math::vec3(n));
@@ -360,7 +360,7 @@ TEST(Irradiance, OfOneColourIsThatColour) {
     }
 }
 
-TEST(Irradiance, OfSmoothLightIsItsIntegral) {
+TEST(Irradiance, IrradianceOfSmoothLightIsItsIntegral) {
     // Second order: the harmonics hold it exactly.
     const image::Image picture = draw(128, [](dvec3 d) {
         return dvec3(1.0 + d.y, 2.0 + d.x * d.z + d.x, 1.5 + d.z * d.z - d.x * d.y);
@@ -373,7 +373,7 @@ TEST(Irradiance, OfSmoothLightIsItsIntegral) {
         );
 }
 
-TEST(Irradiance, OfAHalfSphereErrsByThreePercentOfItsLight) {
+TEST(Irradiance, IrradianceOfAHalfSphereErrsByThreePercent) {
     // What Ramamoorthi 2001 allows for: 9 % at worst, far less on average.
     const image::Image picture = draw(128, [](dvec3 d) { return dvec3(d.x > 0.0 ? 1.0 : 0.0); });
     const auto factors = projectIrradiance(picture);
@@ -381,7 +381,7 @@ TEST(Irradiance, OfAHalfSphereErrsByThreePercentOfItsLight) {
         EXPECT_NEAR(evaluateIrradiance(factors, math::vec3(n)).x, integrate(picture, n).x, 0.035);
 }
 
-TEST(Irradiance, IsNeverNegativeAndTheShadersAgree) {
+TEST(Irradiance, IrradianceIsNeverNegativeAndTheShadersAgree) {
     const image::Image picture = draw(128, [](dvec3 d) { return dvec3(d.y > 0.98 ? 40.0 : 0.0); });
     const auto factors = projectIrradiance(picture);
     math::vec4 packed[9];
@@ -439,7 +439,7 @@ TEST(Prefilter, AWidePictureIsMirroredNoSharperThanTheLimitAndASmallOneAsItIs) {
     EXPECT_EQ(small.front().width, 8u);
 }
 
-TEST(Prefilter, IsTheIntegralOverGgx) {
+TEST(Prefilter, PrefilteredLightIsTheIntegralOverGgx) {
     const image::Image picture = draw(256, [](dvec3 d) {
         return 1.0 + (d.x > 0.3 ? 2.0 : 0.0) + std::max(d.y, 0.0) * (d.z < 0.0 ? 1.0 : 0.2);
     });

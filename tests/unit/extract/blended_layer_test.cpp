@@ -68,7 +68,7 @@ TEST_F(BlendedLayers, GlassBesideAMoverStaysAndGlassThatOneMayPassDoesNot) {
     EXPECT_EQ(findLayer(), std::vector{passed});
 }
 
-TEST_F(BlendedLayers, WhatLiesBeforeASurfaceOfTheLayerIsInItToo) {
+TEST_F(BlendedLayers, SurfacesInFrontOfALayersSurfaceAreInItToo) {
     const ecs::Entity moving = addBox({0, 0, -20}, glass);
     move(moving, {1, 0, 0});
     const ecs::Entity before = addBox({0.5, 0, -12}, glass);
@@ -95,7 +95,7 @@ TEST_F(BlendedLayers, AWorldWithoutBlendedGeometriesIsNotLookedAt) {
     EXPECT_TRUE(findLayer().empty());
 }
 
-TEST_F(BlendedLayers, ThereIsAnInstantForEachStepOfTheLongestWay) {
+TEST_F(BlendedLayers, InstantsFollowTheLongestMotion) {
     const ecs::Entity moving = addBox({0, 0, -20}, glass);
     move(moving, {0.4, 0, 0});
     const BlendedLayer slow = plan(limitsOf(15));
@@ -121,7 +121,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
     const BlendedLayer behind = plan(limitsOf(15));
     EXPECT_TRUE(behind.readsInstants);
     EXPECT_EQ(behind.instants.size(), 15u);
-    EXPECT_EQ(behind.partCount, shader::kMostSurfaceParts);
+    EXPECT_EQ(behind.partCount, shader::kMaxSurfaceParts);
     // A method that looks up no instants has the raster's depth.
     LayerLimits limits = limitsOf(15);
     limits.findsInstants = false;
@@ -129,7 +129,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
     EXPECT_EQ(plan(limits).partCount, 1u);
 }
 
-TEST_F(BlendedLayers, WhereMemoryIsShortFewerInstantsAreLookedUpAndThenNone) {
+TEST_F(BlendedLayers, FewerInstantsAreLookedUpWithLessMemory) {
     addBox({0, 0, -10}, glass);
     move(addBox({0, 0, -5}), {3, 0, 0});
     LayerLimits limits = limitsOf(15);
@@ -155,17 +155,17 @@ TEST_F(BlendedLayers, TheNearestIsDrawnFirstAndPlacesAreOfTheItems) {
     ASSERT_EQ(layer.items.size(), 2u);
     EXPECT_LT(layer.items[0].draw.distance, layer.items[1].draw.distance);
     ASSERT_EQ(layer.places.size(), 2 * layer.instants.size());
-    // The middle of the nearest at the first instant, in eye space.
+    // The middle of the nearest at the first instant, in camera-relative space.
     const shader::LayerPlace& place = layer.places[layer.items[0].firstPlace];
     EXPECT_NEAR(
-        place.eyeFromObject[0].w, 0.5 + 2.0 * (layer.instants.front().time - 1.0) + 2.0, 0.01
+        place.relWorldFromObject[0].w, 0.5 + 2.0 * (layer.instants.front().time - 1.0) + 2.0, 0.01
     );
-    EXPECT_NEAR(place.eyeFromObject[2].w, -10.0, 1.0e-6);
+    EXPECT_NEAR(place.relWorldFromObject[2].w, -10.0, 1.0e-6);
     const math::vec4 clip = place.clipFromObject * math::vec4(0, 0, 0, 1);
     EXPECT_NEAR(clip.w, 10.0, 1.0e-5);
 }
 
-TEST_F(BlendedLayers, WhatIsBesideThePictureIsNotDrawn) {
+TEST_F(BlendedLayers, SurfacesOutsideThePictureAreNotDrawn) {
     move(addBox({200, 0, -10}, glass), {1, 0, 0});
     EXPECT_TRUE(findLayer().empty());
     // Surfaces that enter it within the exposure are.
@@ -173,7 +173,7 @@ TEST_F(BlendedLayers, WhatIsBesideThePictureIsNotDrawn) {
     EXPECT_EQ(findLayer().size(), 1u);
 }
 
-TEST(LayerInstants, AreTakenAlikeInBothDirectionsOfTime) {
+TEST(LayerInstants, InstantsAreSymmetricInTime) {
     for (uint32_t all = 1; all <= 40; ++all)
         for (uint32_t count = 1; count <= all; ++count)
             for (uint32_t i = 0; i < count; ++i) {

@@ -19,7 +19,7 @@ DrawItem makeDraw(scene::AlphaMode mode) {
     return draw;
 }
 
-TEST(Demand, AFrameOfPlainMeshesAsksForNothingMore) {
+TEST(Demand, PlainMeshesRequestNoFurtherPasses) {
     ExtractedFrame frame;
     frame.opaque.still.push_back(makeDraw(scene::AlphaMode::Opaque));
     const SurfaceDemand demand = decideSurfaces(frame);
@@ -29,7 +29,7 @@ TEST(Demand, AFrameOfPlainMeshesAsksForNothingMore) {
     EXPECT_EQ(describe(demand.alphaMask), "skipped: no surface in the picture has an alpha mask");
 }
 
-TEST(Demand, WhatIsDrawnAsksForWhatItNeedsAndSaysHowMuchOfItThereIs) {
+TEST(Demand, DrawnSurfacesRequestTheirPassesWithCounts) {
     ExtractedFrame frame;
     frame.opaque.still.assign(2, makeDraw(scene::AlphaMode::Mask));
     frame.blended.moving.push_back(makeDraw(scene::AlphaMode::Blend));
@@ -54,7 +54,7 @@ class Backdrop : public Extraction {
     core::Decision decide() { return decideReveal(extract(), layout); }
 };
 
-TEST_F(Backdrop, WhatStandsBehindOrAdjoinsAMoverMayComeIntoSight) {
+TEST_F(Backdrop, SurfacesBehindOrNextToAMoverMayBeRevealed) {
     struct Case {
         const char* name;
         std::vector<math::dvec3> movers;
@@ -65,7 +65,7 @@ TEST_F(Backdrop, WhatStandsBehindOrAdjoinsAMoverMayComeIntoSight) {
     const std::vector<Case> cases = {
         {"nothing but sky", {{0, 0, -10}}, {}, false},
         {"behind", {{0, 0, -10}}, {{0, 0, -20}}, true},
-        {"before it, and beside it", {{0, 0, -10}}, {{0, 0, -4}, {12, 0, -20}}, false},
+        {"in front of it, and next to it", {{0, 0, -10}}, {{0, 0, -4}, {12, 0, -20}}, false},
         // The mover's right side at 1/9 of the distance, the other's left one at 2/18.
         {"adjoins it", {{0, 0, -10}}, {{3.302, 0, -19}}, true},
         {"another mover", {{0, 0, -10}, {0.5, 0, -14}}, {}, true},
@@ -82,16 +82,16 @@ TEST_F(Backdrop, WhatStandsBehindOrAdjoinsAMoverMayComeIntoSight) {
             addBox(position);
         const core::Decision decision = decide();
         EXPECT_EQ(decision.run, each.isRevealed);
-        EXPECT_EQ(decision.reason == "nothing but sky lies behind what moves", !each.isRevealed);
+        EXPECT_EQ(decision.reason == "nothing but sky lies behind movers", !each.isRevealed);
     }
 }
 
-TEST_F(Backdrop, WhatIsNoNumberMayBeAnywhere) {
+TEST_F(Backdrop, NonFiniteBoxesMayBeAnywhere) {
     addMover({0.0, 0.0, -10.0});
     addBox({12.0, 0.0, -20.0});
     ExtractedFrame frame = extract();
     ASSERT_FALSE(decideReveal(frame, layout).run);
-    frame.entities[1].eyeFromObject[2][3] = std::numeric_limits<float>::quiet_NaN();
+    frame.entities[1].relWorldFromObject[2][3] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(decideReveal(frame, layout).run);
 }
 
@@ -110,7 +110,7 @@ TEST_F(Backdrop, ACameraThatMovesMakesEverythingAMover) {
     EXPECT_TRUE(decide().run);
 }
 
-TEST_F(Backdrop, ManyMoversAreNotLookedAtOneByOne) {
+TEST_F(Backdrop, ManyMoversAreNotTestedOneByOne) {
     // In a fan: none lies behind another.
     for (int i = 0; i < 65; ++i)
         addMover({-8.0 + 0.25 * i, i % 2 == 0 ? 3.0 : -3.0, -900.0 - 10.0 * i});
@@ -144,8 +144,8 @@ class InstanceMasksOfAFrame : public ::testing::Test {
         shader::EntityRow row{};
         row.motion = moves ? 0u : shader::kNoMotion;
         for (int i = 0; i < 3; ++i)
-            row.eyeFromObject[i][i] = 1.0f;
-        row.eyeFromObject[2][3] = static_cast<float>(-distance);
+            row.relWorldFromObject[i][i] = 1.0f;
+        row.relWorldFromObject[2][3] = static_cast<float>(-distance);
         row.instanceMask = moves ? 0x55u : 0u; // whatever an earlier frame left
         if (moves)
             frame.movingRows.push_back(static_cast<uint32_t>(frame.entities.size()));
@@ -169,7 +169,7 @@ class InstanceMasksOfAFrame : public ::testing::Test {
     SceneLayout layout;
 };
 
-TEST_F(InstanceMasksOfAFrame, WhatMovesGetsOneOfItsOwnAndWhatStandsStillGetsNone) {
+TEST_F(InstanceMasksOfAFrame, MoversGetUniqueMasksAndStaticEntitiesNone) {
     for (int i = 0; i < 20; ++i)
         add(5.0, i % 2 == 0);
     const auto masks = assign();
@@ -183,18 +183,18 @@ TEST_F(InstanceMasksOfAFrame, WhatMovesGetsOneOfItsOwnAndWhatStandsStillGetsNone
     }
 }
 
-TEST_F(InstanceMasksOfAFrame, BeforeAMovingCameraWhatStandsStillInTheWorldGetsOneToo) {
+TEST_F(InstanceMasksOfAFrame, StaticEntitiesGetMasksUnderAMovingCamera) {
     add(5.0, false);
     add(5.0, true);
     frame.movingRows.clear(); // it moves in the picture only
     std::swap(frame.opaque.moving, frame.opaque.still);
-    frame.stillMotions.resize(1);
+    frame.staticMotions.resize(1);
     const auto masks = assign();
     EXPECT_EQ(masks[0], 0u);
     EXPECT_NE(masks[1], 0u);
 }
 
-TEST_F(InstanceMasksOfAFrame, OnlyAnotherMaskChangesARow) {
+TEST_F(InstanceMasksOfAFrame, ARowChangesOnlyWithItsMask) {
     add(5.0, false);
     add(5.0, true);
     frame.changes.all = false;
@@ -205,7 +205,7 @@ TEST_F(InstanceMasksOfAFrame, OnlyAnotherMaskChangesARow) {
     EXPECT_TRUE(frame.changes.rows.empty());
 }
 
-TEST_F(InstanceMasksOfAFrame, WithMoreMoversThanMasksTheApparentlyLargestGetThem) {
+TEST_F(InstanceMasksOfAFrame, TheApparentlyLargestMoversGetMasksFirst) {
     for (int i = 0; i < 100; ++i)
         add(3.0 + (i * 37) % 100, true);
     add(0.0, true); // the camera's own place: no division by zero

@@ -82,7 +82,7 @@ class ExposureParts : public Extraction {
     ecs::Entity mBox;
 };
 
-TEST_F(ExposureParts, NothingThatJumpsIsOneExposure) {
+TEST_F(ExposureParts, AnExposureWithoutJumpsIsNotSplit) {
     EXPECT_TRUE(plan().empty());
     world.registry.add(mBox, scene::LinearVelocity{{100.0, 0.0, 0.0}});
     EXPECT_TRUE(plan().empty()) << "however fast it goes";
@@ -96,7 +96,7 @@ TEST_F(ExposureParts, NothingThatJumpsIsOneExposure) {
     EXPECT_TRUE(plan().empty()) << "what grows goes a way";
 }
 
-TEST_F(ExposureParts, WhatAppearsTakesItsShareOfTheLight) {
+TEST_F(ExposureParts, AnAppearanceSplitsByItsShareOfTheLight) {
     blink(mBox, {0.0f, 1.25f});
     expectParts(plan(), {{1.0, 1.25}, {1.25, 2.0}}, {0.25, 0.75});
     // A triangle takes 2 (1/4)^2 of its light in its first quarter.
@@ -138,7 +138,7 @@ TEST_F(ExposureParts, AStepAtAnEndOfTheExposureLeavesOnePartThatDoesNotReachIt) 
         );
 }
 
-TEST_F(ExposureParts, InNoPartAnythingIsBetweenItsPlaces) {
+TEST_F(ExposureParts, NoPartHasAnEntityBetweenItsPlaces) {
     // Children of an entity that steps, a loop that restarts, keys at nearly the same time.
     const ecs::Entity parent = world.registry.create();
     world.registry.add(parent, scene::LocalTransform{});
@@ -176,7 +176,7 @@ TEST_F(ExposureParts, KeysAtNearlyTheSameTimeAreAPartOfTheirOwn) {
     expectParts(plan(), {{1.0, 1.5}, {1.5, 1.5625}, {1.5625, 2.0}}, {0.5, 0.0625, 0.4375});
 }
 
-TEST_F(ExposureParts, DenseKeysOfASmoothWayAreNone) {
+TEST_F(ExposureParts, DenseKeysOfASmoothMotionAreNoJumps) {
     std::vector<float> times;
     std::vector<vec4> values;
     for (int i = 0; i <= 40; ++i) {
@@ -189,7 +189,7 @@ TEST_F(ExposureParts, DenseKeysOfASmoothWayAreNone) {
     EXPECT_TRUE(plan().empty());
 }
 
-TEST_F(ExposureParts, ALoopThatClosesIsNone) {
+TEST_F(ExposureParts, AClosedLoopIsNoJump) {
     world.playback.loop = true;
     animate(
         mBox,
@@ -201,7 +201,7 @@ TEST_F(ExposureParts, ALoopThatClosesIsNone) {
     EXPECT_TRUE(plan().empty());
 }
 
-TEST_F(ExposureParts, WhatNobodySeesDoesNotCount) {
+TEST_F(ExposureParts, InvisibleJumpsAreIgnored) {
     const ecs::Entity outside = addBox({0.0, 0.0, 10.0});
     blink(outside, {0.0f, 1.25f});
     EXPECT_TRUE(plan().empty()) << "behind the camera";
@@ -222,7 +222,7 @@ TEST_F(ExposureParts, WhatNobodySeesDoesNotCount) {
     EXPECT_TRUE(plan().empty()) << "an eighth of a pixel";
 }
 
-TEST_F(ExposureParts, WhatAppearsOrIsHiddenByAGameIsThereInSomePartsAndNotInOthers) {
+TEST_F(ExposureParts, EntitiesShownOrHiddenByAGameAreInTheRightParts) {
     const auto isThereIn = [&](const ExposurePart& part) {
         const scene::ExposureMotion motion(world, camera, part.exposure);
         const bool atOpen = isDrawable(motion.worldFromObject(mBox, 0.0));
@@ -245,7 +245,7 @@ TEST_F(ExposureParts, WhatAppearsOrIsHiddenByAGameIsThereInSomePartsAndNotInOthe
     EXPECT_TRUE(plan().empty()) << "hidden at all times";
 }
 
-TEST_F(ExposureParts, WhatAppearsAtTheFramesOwnTimeStandsForAllOfItsExposure) {
+TEST_F(ExposureParts, EntitiesAppearingAtTheFrameTimeAreVisibleForTheWholeExposure) {
     scene::appear(world, mBox, 2.0);
     EXPECT_TRUE(plan().empty());
     blink(addBox({1.0, 0.0, -9.0}), {0.0f, 1.5f});
@@ -257,7 +257,7 @@ TEST_F(ExposureParts, WhatAppearsAtTheFramesOwnTimeStandsForAllOfItsExposure) {
     }
 }
 
-TEST_F(ExposureParts, WhatIsHiddenAtTheFramesOwnTimeIsThereUntilThen) {
+TEST_F(ExposureParts, EntitiesHiddenAtTheFrameTimeAreVisibleUntilThen) {
     scene::hide(world, mBox, 2.0);
     const auto parts = plan();
     expectParts(parts, {{1.0, 2.0}}, {1.0});
@@ -267,7 +267,7 @@ TEST_F(ExposureParts, WhatIsHiddenAtTheFramesOwnTimeIsThereUntilThen) {
     EXPECT_TRUE(plan().empty()) << "hidden all the time";
 }
 
-TEST_F(ExposureParts, WhatHasNoPastGoesNoWay) {
+TEST_F(ExposureParts, EntitiesWithoutAPastDoNotMove) {
     blink(mBox, {0.0f, 1.25f});
     scene::teleport(world, mBox, {.translation = {0, 0, -10}}, 1.5);
     EXPECT_TRUE(plan().empty());
@@ -301,7 +301,7 @@ TEST_F(ExposureParts, ScalesOfTheBlurPlaceJumpsWhereTheyAreSeen) {
     EXPECT_TRUE(plan().empty());
 }
 
-TEST_F(ExposureParts, OfManyJumpsTheShortestPartsAreJoined) {
+TEST_F(ExposureParts, TheShortestPartsOfManyJumpsAreJoined) {
     std::vector<float> times{0.0f};
     for (int i = 1; i < 40; ++i)
         times.push_back(1.0f + float(i) / 40.0f);
@@ -316,7 +316,7 @@ TEST_F(ExposureParts, OfManyJumpsTheShortestPartsAreJoined) {
     EXPECT_NEAR(light, 1.0, 1e-12);
 }
 
-TEST_F(ExposureParts, AnInstantOfTheExposureHasNone) {
+TEST_F(ExposureParts, AnInstantHasNoParts) {
     blink(mBox, {0.0f, 1.25f});
     request.instant = 0.5;
     EXPECT_TRUE(plan().empty());

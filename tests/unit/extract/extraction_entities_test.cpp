@@ -37,7 +37,7 @@ TEST_F(Extraction, OpaqueComesNearToFarAndBlendedFarToNear) {
     EXPECT_EQ(frame.opaque.merge()[0].alphaMode, scene::AlphaMode::Mask);
 }
 
-TEST_F(Extraction, WhatHasNoTrianglesNoVolumeOrNoPlaceGetsNoRow) {
+TEST_F(Extraction, EntitiesWithoutTrianglesVolumeOrPlaceGetNoRow) {
     const uint32_t points = addMesh(scene::AlphaMode::Opaque, 0);
     const uint32_t empty = addMesh(scene::AlphaMode::Opaque, 1);
     layout.bounds[empty] = math::Bounds{};
@@ -69,7 +69,7 @@ TEST_F(Extraction, AMirroringTransformIsMarked) {
     EXPECT_EQ(frame.entities[1].handedness, 1.0f);
 }
 
-TEST_F(Extraction, WhatLiesOutsideThePictureKeepsItsRowForRaysButIsNotDrawn) {
+TEST_F(Extraction, EntitiesOutsideThePictureHaveRowsForRaysButAreNotDrawn) {
     addBox({0.0, 0.0, 5.0});     // behind
     addBox({-100.0, 0.0, -5.0}); // left
     addBox({100.0, 0.0, -5.0});
@@ -81,7 +81,7 @@ TEST_F(Extraction, WhatLiesOutsideThePictureKeepsItsRowForRaysButIsNotDrawn) {
     EXPECT_EQ(entitiesOf(frame.opaque.merge()), (std::vector<uint32_t>{5}));
 }
 
-TEST_F(Extraction, WhatReachesIntoThePictureOrAroundTheCameraIsDrawn) {
+TEST_F(Extraction, EntitiesThatReachIntoThePictureOrSurroundTheCameraAreDrawn) {
     math::Transform large;
     large.scale = math::dvec3(50.0); // the camera is inside
     addBox(large);
@@ -97,9 +97,9 @@ TEST_F(Extraction, EyeSpaceHasTheWorldsAxesAndTheCamerasOrigin) {
     world.registry.get<scene::LocalTransform>(camera).transform = pose;
     addBox({1.0, 2.0, -7.0});
     const shader::EntityRow row = extract().entities.at(0);
-    EXPECT_EQ(row.eyeFromObject[0], math::vec4(1.0f, 0.0f, 0.0f, 0.0f));
-    EXPECT_EQ(row.eyeFromObject[1], math::vec4(0.0f, 1.0f, 0.0f, 0.0f));
-    EXPECT_EQ(row.eyeFromObject[2], math::vec4(0.0f, 0.0f, 1.0f, -10.0f));
+    EXPECT_EQ(row.relWorldFromObject[0], math::vec4(1.0f, 0.0f, 0.0f, 0.0f));
+    EXPECT_EQ(row.relWorldFromObject[1], math::vec4(0.0f, 1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(row.relWorldFromObject[2], math::vec4(0.0f, 0.0f, 1.0f, -10.0f));
 }
 
 TEST_F(Extraction, TheRowsOfASlantedTransformTakePointsToEyeSpace) {
@@ -112,7 +112,7 @@ TEST_F(Extraction, TheRowsOfASlantedTransformTakePointsToEyeSpace) {
     const math::dvec4 point(0.3, -0.4, 0.5, 1.0);
     const math::dvec4 expected = math::computeMatrix(pose) * point;
     for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(glm::dot(math::dvec4(row.eyeFromObject[i]), point), expected[i], 1e-6);
+        EXPECT_NEAR(glm::dot(math::dvec4(row.relWorldFromObject[i]), point), expected[i], 1e-6);
 }
 
 TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
@@ -127,7 +127,7 @@ TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
     EXPECT_NEAR(project(motion.clipFromObjectOpen, centre).x, 0.1 * focal, 1e-6);
     EXPECT_NEAR(project(row.clipFromObjectRaster, centre).x, 0.15 * focal, 1e-6);
     EXPECT_NEAR(project(motion.clipFromObjectClose, centre).x, 0.2 * focal, 1e-6);
-    EXPECT_NEAR(row.eyeFromObject[0].w, 1.5f, 1e-6f);
+    EXPECT_NEAR(row.relWorldFromObject[0].w, 1.5f, 1e-6f);
 }
 
 TEST_F(Extraction, AMoverThatEndsWhereItBeganMoves) {
@@ -216,7 +216,7 @@ class DeformedEntities : public Extraction {
     }
 };
 
-TEST_F(DeformedEntities, TheirGeometriesStandBehindTheScenesOwn) {
+TEST_F(DeformedEntities, GeometriesOfDeformedEntitiesFollowTheScenesOwn) {
     const uint32_t two = addMesh(scene::AlphaMode::Opaque, 2);
     layout.reaches.push_back(layout.reaches[0]);
     addBox(dvec3(0, 0, -5), two);
@@ -242,7 +242,7 @@ TEST_F(DeformedEntities, TheirGeometriesStandBehindTheScenesOwn) {
     EXPECT_EQ(frame.opaque.size(), 6u);
 }
 
-TEST_F(DeformedEntities, TheyAreLeftOutByWhereTheyAreDeformedTo) {
+TEST_F(DeformedEntities, DeformedEntitiesAreCulledByTheirDeformedBounds) {
     // The box at rest is in the picture, its pose is not; and the other way round.
     addSkinned({100, 0, -5}, {100, 0, -5});
     EXPECT_TRUE(extract().opaque.empty());
@@ -392,7 +392,7 @@ TEST_F(DeformedEntities, AShapeThatChangesOnTheSpotIsABoxForRays) {
     EXPECT_GE(tables.value().boxes[0].max.y, 2.0f) << "the upper vertices are lifted";
 }
 
-TEST_F(DeformedEntities, AShapeThatStandsStillIsAMeshLikeAnyOther) {
+TEST_F(DeformedEntities, AStaticShapeIsAnOrdinaryMesh) {
     addSkinned({0, 0, -5}, {0, 1, -5});
     addBox(dvec3(0, 0, -7));
     ExtractedFrame frame = extract();
@@ -405,7 +405,7 @@ TEST_F(DeformedEntities, AShapeThatStandsStillIsAMeshLikeAnyOther) {
     EXPECT_EQ(tables.value().rows.size(), 2u);
 }
 
-TEST_F(DeformedEntities, WhatIsScaledToNothingAtTheRasterInstantMayBeMetBefore) {
+TEST_F(DeformedEntities, EntitiesScaledToZeroAtTheRasterInstantMayBeHitBefore) {
     const ecs::Entity entity = addMorphed({0, 0, -5}, 0.0f, 1.0f);
     scene::AnimationChannel channel;
     channel.path = scene::AnimationPath::Scale;

@@ -70,8 +70,8 @@ class Extraction : public testing::Test {
         const shader::EntityRow& entry = frame.entities.at(row);
         if (entry.motion == shader::kNoMotion)
             return {entry.clipFromObjectRaster, entry.clipFromObjectRaster};
-        const size_t stillCount = frame.stillMotions.size();
-        return entry.motion < stillCount ? frame.stillMotions[entry.motion]
+        const size_t stillCount = frame.staticMotions.size();
+        return entry.motion < stillCount ? frame.staticMotions[entry.motion]
                                          : frame.movingMotions.at(entry.motion - stillCount);
     }
 

@@ -51,8 +51,8 @@ TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.moves);
     const math::vec4 ahead(0.0f, 0.0f, -1.0f, 0.0f);
-    const math::vec4 open = frame.constants.clipFromEyeOpen * ahead;
-    const math::vec4 close = frame.constants.clipFromEyeClose * ahead;
+    const math::vec4 open = frame.constants.clipFromRelWorldOpen * ahead;
+    const math::vec4 close = frame.constants.clipFromRelWorldClose * ahead;
     EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
     // Turned to the left by 0.1 rad: the former centre is now at the right.
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
@@ -66,8 +66,8 @@ TEST_F(Extraction, AMovingCameraSeesAStillPointFromWhereItIsAtOpenAndClose) {
     request.exposure = {0.0, 0.0, 1.0, 0.0};
     const ExtractedFrame frame = extract();
     const math::vec4 ahead(0.0f, 0.0f, -2.0f, 1.0f); // from the eye
-    const math::vec4 open = frame.constants.clipFromEyeOpen * ahead;
-    const math::vec4 close = frame.constants.clipFromEyeClose * ahead;
+    const math::vec4 open = frame.constants.clipFromRelWorldOpen * ahead;
+    const math::vec4 close = frame.constants.clipFromRelWorldClose * ahead;
     EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
     EXPECT_NEAR(close.x / close.w, -0.5 * focal, 1e-5);
@@ -85,7 +85,7 @@ TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
         const ExtractedFrame frame = extract();
         const shader::EntityRow& row = frame.entities.at(0);
         const shader::EntityMotion motion = motionOf(frame, 0);
-        EXPECT_NEAR(row.eyeFromObject[0].w, 5.0f, 1e-6f); // the frame's own time in all three
+        EXPECT_NEAR(row.relWorldFromObject[0].w, 5.0f, 1e-6f); // the frame's own time in all three
         const auto x = [&](const math::mat4& matrix) { return double(matrix[3].x); };
         const double perMetre = x(row.clipFromObjectRaster) / 5.0;
         EXPECT_NEAR(x(motion.clipFromObjectOpen), open * perMetre, 1e-5);
@@ -103,7 +103,7 @@ TEST_F(Extraction, TheScaleOfACamerasNodeDoesNotCount) {
     const ExtractedFrame plain = extract();
     transform.scale = {3.0, 0.5, 20.0};
     const ExtractedFrame scaled = extract();
-    expectNear(scaled.constants.clipFromEye, plain.constants.clipFromEye, kRounding);
+    expectNear(scaled.constants.clipFromRelWorld, plain.constants.clipFromRelWorld, kRounding);
     expectNear(
         scaled.entities[0].clipFromObjectRaster, plain.entities[0].clipFromObjectRaster, kRounding
     );
@@ -114,10 +114,10 @@ TEST_F(Extraction, EyeSpaceGoesToClipSpaceAndBack) {
     addBox({0.5, 0.25, -10.0});
     const ExtractedFrame frame = extract();
     const math::vec4 centre(0.5f, 0.25f, -10.0f, 1.0f);
-    const math::vec4 clip = frame.constants.clipFromEye * centre;
+    const math::vec4 clip = frame.constants.clipFromRelWorld * centre;
     EXPECT_NEAR(clip.x, (frame.entities[0].clipFromObjectRaster * math::vec4(0, 0, 0, 1)).x, 1e-6f);
     EXPECT_NEAR(clip.w, 10.0f, 1e-5f); // the distance
-    const math::vec4 back = frame.constants.eyeFromClip * clip;
+    const math::vec4 back = frame.constants.relWorldFromClip * clip;
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(back[i] / back.w, centre[i], 1e-4f);
 }
@@ -133,7 +133,7 @@ TEST_F(Extraction, APerspectivePixelGrowsWithDistance) {
 TEST_F(Extraction, ACamerasFrameIsSeenWholeInAPictureOfAnotherShape) {
     auto& lens = world.registry.get<scene::Camera>(camera);
     const ExtractedFrame plain = extract(); // 200 x 100, without a separate frame
-    const auto clip = [](const ExtractedFrame& frame) { return frame.constants.clipFromEye; };
+    const auto clip = [](const ExtractedFrame& frame) { return frame.constants.clipFromRelWorld; };
     for (const double narrower : {0.5, 1.0, 2.0, 2.0 + 1e-7}) {
         lens.aspectRatio = narrower;
         EXPECT_EQ(clip(extract()), clip(plain)) << narrower;
@@ -155,7 +155,7 @@ TEST_F(Extraction, AnOrthographicFrameIsSeenWholeInAPictureOfAnotherShape) {
     lens.xMag = 12.0;
     lens.yMag = 4.0;
     const auto seen = [&](const math::vec3& place) {
-        return math::vec2(project(extract().constants.clipFromEye, place));
+        return math::vec2(project(extract().constants.clipFromRelWorld, place));
     };
     const math::vec3 corner(12.0f, 4.0f, -10.0f);
     EXPECT_LT(glm::distance(seen(corner), math::vec2(1.0f, -2.0f / 3.0f)), 1e-6f);
@@ -205,7 +205,9 @@ TEST_F(Extraction, ACameraBelowAShearedOrMirroredParentStaysRigid) {
         const ExtractedFrame frame = extract();
         // Back into the view's own space: a rotation is left.
         const math::dmat4 projection = math::clipFromViewPerspective(0.8, 2.0, 0.05);
-        const math::dmat3 turn(glm::inverse(projection) * math::dmat4(frame.constants.clipFromEye));
+        const math::dmat3 turn(
+            glm::inverse(projection) * math::dmat4(frame.constants.clipFromRelWorld)
+        );
         for (int column = 0; column < 3; ++column)
             EXPECT_NEAR(glm::length(turn[column]), 1.0, 1e-5);
         EXPECT_NEAR(glm::determinant(turn), 1.0, 1e-5);
@@ -274,7 +276,7 @@ class JitterOfStatic : public Extraction {
     }
 };
 
-TEST_F(JitterOfStatic, WhatMovesOrDeformsOrMovedSinceTheLastFrameIsSampledAtTheCentre) {
+TEST_F(JitterOfStatic, MoversAndDeformersAreSampledAtTheCentre) {
     addBox({0.0, 0.0, -8.0});
     const ecs::Entity mover = addBox({2.0, 0.0, -8.0});
     world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
@@ -311,7 +313,7 @@ TEST_F(JitterOfStatic, AnEntityThatCouldMoveAndDoesNotIsJittered) {
     expectMoved(findShiftsPx().at(0));
 }
 
-TEST_F(JitterOfStatic, UnderACameraThatMovesNothingIsJittered) {
+TEST_F(JitterOfStatic, NothingIsJitteredUnderAMovingCamera) {
     addBox({0.0, 0.0, -8.0});
     world.registry.add(camera, scene::LinearVelocity{{0.1, 0.0, 0.0}});
     for (const double exposure : {0.25, 0.0}) {
@@ -343,9 +345,9 @@ TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
     expectNear(farMotion.clipFromObjectOpen, nearMotion.clipFromObjectOpen, kRounding);
     expectNear(b.clipFromObjectRaster, a.clipFromObjectRaster, kRounding);
     expectNear(farMotion.clipFromObjectClose, nearMotion.clipFromObjectClose, kRounding);
-    expectNear(far.constants.clipFromEye, near.constants.clipFromEye, kRounding);
+    expectNear(far.constants.clipFromRelWorld, near.constants.clipFromRelWorld, kRounding);
     for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(b.eyeFromObject[i].w, a.eyeFromObject[i].w, 2e-6f);
+        EXPECT_NEAR(b.relWorldFromObject[i].w, a.relWorldFromObject[i].w, 2e-6f);
 }
 
 TEST_F(Extraction, AStillSceneFarFromTheOriginDoesNotMove) {
@@ -398,7 +400,7 @@ TEST_F(Extraction, ALightWithoutLimitsHasRangeZeroAndASharpConeStaysFinite) {
     EXPECT_TRUE(std::isfinite(row.spotScale) && std::isfinite(row.spotOffset));
 }
 
-TEST_F(Extraction, WhatIsAskedForStandsInTheConstants) {
+TEST_F(Extraction, RequestedSettingsAreInTheConstants) {
     request.background = {0.1f, 0.2f, 0.3f};
     request.ambient = {0.4f, 0.5f, 0.6f};
     request.lodBias = -1.5f;
@@ -451,7 +453,7 @@ TEST_F(ExtractionHistory, RaysMeetWhatAppearsFromThenOnAndWhatIsHiddenUntilThen)
     EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.41)));
 }
 
-TEST_F(ExtractionHistory, WhatIsHiddenHasNoRowNorLight) {
+TEST_F(ExtractionHistory, HiddenEntitiesHaveNoRowAndNoLight) {
     const ecs::Entity mover = addMover();
     const ecs::Entity other = addMover();
     const ecs::Entity lamp = world.registry.create();

@@ -123,7 +123,7 @@ class InstantTablesTest : public Extraction {
     }
 };
 
-TEST_F(InstantTablesTest, ATumblingMoverIsFoundWhereItIsProjectedAnewByEitherCamera) {
+TEST_F(InstantTablesTest, ATumblingMoverMatchesItsProjectionByEitherCamera) {
     moveCamera();
     const ecs::Entity tumbler = addTumbler();
     const dvec3 corner(0.9, -0.7, 0.3);
@@ -137,7 +137,7 @@ TEST_F(InstantTablesTest, ATumblingMoverIsFoundWhereItIsProjectedAnewByEitherCam
     }
 }
 
-TEST_F(InstantTablesTest, WhatStandsStillBeforeAMovingCameraIsOneMover) {
+TEST_F(InstantTablesTest, StaticEntitiesUnderAMovingCameraAreOneMover) {
     moveCamera();
     const ecs::Entity first = addBox({0.0, 0.0, -8.0});
     addBox({2.0, 0.0, -9.0});
@@ -145,17 +145,17 @@ TEST_F(InstantTablesTest, WhatStandsStillBeforeAMovingCameraIsOneMover) {
     EXPECT_EQ(tables.raster.movers.at(0), shader::kWorldMover);
     EXPECT_EQ(tables.raster.movers.at(1), shader::kWorldMover);
     EXPECT_EQ(tables.raster.movers.at(2), shader::kSkyMover);
-    EXPECT_FALSE(tables.raster.isStill);
+    EXPECT_FALSE(tables.raster.isStatic);
     const dvec3 corner(0.5, 0.5, 0.5);
     expectMaps(tables.raster, 0, project(first, corner, 1.0), first, corner);
 }
 
-TEST_F(InstantTablesTest, BeforeACameraThatStandsStillBothLayersAreStill) {
+TEST_F(InstantTablesTest, BothLayersAreStaticUnderAStaticCamera) {
     addTumbler();
     const InstantTables tables = computeSecondFrame();
-    EXPECT_TRUE(tables.raster.isStill);
+    EXPECT_TRUE(tables.raster.isStatic);
     ASSERT_TRUE(tables.last.has_value());
-    EXPECT_TRUE(tables.last->isStill);
+    EXPECT_TRUE(tables.last->isStatic);
 }
 
 TEST_F(InstantTablesTest, ALensAddsPlacesButNoMotions) {
@@ -170,7 +170,7 @@ TEST_F(InstantTablesTest, ALensAddsPlacesButNoMotions) {
     EXPECT_EQ(tables.lens.size(), size_t(kInstants) * shader::kLensSets);
     EXPECT_EQ(tables.times.size(), tables.lens.size());
     ASSERT_EQ(tables.lensReaches.size(), size_t(kInstants) + 1);
-    EXPECT_FALSE(tables.raster.isStill);
+    EXPECT_FALSE(tables.raster.isStatic);
     for (size_t i = 0; i < tables.lens.size(); ++i) {
         const shader::LensReach& reach = tables.lensReaches[i / shader::kLensSets];
         EXPECT_NEAR(reach.inverseFocus, 1.0 / 3.0, 1e-6);
@@ -230,7 +230,7 @@ TEST_F(InstantTablesTest, TheSecondRasterShowsWhereItsSurfacesAre) {
     EXPECT_EQ(tables.record.seconds, 1.0) << "the frame after looks into the frame's own raster";
 }
 
-TEST_F(InstantTablesTest, WhatAppearsDuringTheExposureIsInBothOfItsRasters) {
+TEST_F(InstantTablesTest, EntitiesAppearingDuringTheExposureAreInBothRasters) {
     const ecs::Entity tumbler = addTumbler();
     scene::appear(world, tumbler, 1.0 - 0.5 * kExposureSeconds);
     const InstantTables tables = computeWithSecond();
@@ -256,7 +256,7 @@ TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {
     EXPECT_EQ(tables.last->rasterRows, (std::vector<uint32_t>{shader::kNoRasterRow, 0}));
 }
 
-TEST_F(InstantTablesTest, WhatHasShrunkToNothingIsStillInTheLastRaster) {
+TEST_F(InstantTablesTest, EntitiesScaledToZeroRemainInTheLastRaster) {
     const ecs::Entity shrinking = addBox({0.5, 0.2, -8.0});
     scene::AnimationClip clip;
     clip.channels.push_back(
@@ -279,10 +279,10 @@ TEST_F(InstantTablesTest, WhatHasShrunkToNothingIsStillInTheLastRaster) {
     const RasterRecord last = compute().record;
     setTime(1.0);
     scene::hide(world, shrinking);
-    EXPECT_EQ(compute(&last).last->movers.at(0), shader::kNoMover) << "what is hidden is not there";
+    EXPECT_EQ(compute(&last).last->movers.at(0), shader::kNoMover) << "hidden entities are absent";
 }
 
-TEST_F(InstantTablesTest, ARasterOfMoreThanOneFrameAgoSaysNothing) {
+TEST_F(InstantTablesTest, ARasterOlderThanOneFrameIsNotUsed) {
     addTumbler();
     setTime(1.0 - kFrameSeconds);
     RasterRecord last = compute().record;
@@ -348,7 +348,7 @@ TEST_F(InstantTablesTest, AFrameThatIsDrawnAgainIsKnownByItsTimeAndItsCamera) {
     EXPECT_FALSE(isAgain());
 }
 
-TEST_F(InstantTablesTest, NothingIsBeforeACutAPauseOrTheBeginning) {
+TEST_F(InstantTablesTest, NoLastRasterIsUsedAfterACutAPauseOrTheBeginning) {
     moveCamera();
     ASSERT_TRUE(makeViewBefore(world, request, motion()).has_value());
     request.exposure.frameSeconds = 0.0;
@@ -425,7 +425,7 @@ class ShapeWaysTest : public InstantTablesTest {
     }
 };
 
-TEST_F(ShapeWaysTest, WhatDeformsIsDrawnFromBothRastersToThisExposure) {
+TEST_F(ShapeWaysTest, DeformingEntitiesAreDrawnFromBothRasters) {
     moveCamera();
     const ecs::Entity entity = addMorphed(0.0f, 2.0f);
     setTime(1.0 - kFrameSeconds);

@@ -90,14 +90,14 @@ class KeptFrame : public Extraction {
             rows.at(row) = frame.entities[row];
         for (size_t row = 0; row < rows.size(); ++row)
             EXPECT_TRUE(isIdenticalBytes(rows[row], frame.entities[row])) << row;
-        if (frame.stillRevision != stillRevision)
-            stillMotions = frame.stillMotions;
-        ASSERT_EQ(stillMotions.size(), frame.stillMotions.size());
-        for (size_t i = 0; i < stillMotions.size(); ++i)
-            EXPECT_TRUE(isIdenticalBytes(stillMotions[i], frame.stillMotions[i])) << i;
+        if (frame.staticRevision != staticRevision)
+            staticMotions = frame.staticMotions;
+        ASSERT_EQ(staticMotions.size(), frame.staticMotions.size());
+        for (size_t i = 0; i < staticMotions.size(); ++i)
+            EXPECT_TRUE(isIdenticalBytes(staticMotions[i], frame.staticMotions[i])) << i;
         expectStillRowsOf(frame);
         revision = changes.revision;
-        stillRevision = frame.stillRevision;
+        staticRevision = frame.staticRevision;
     }
 
     /// Those of one revision are the same rows in the same places.
@@ -106,7 +106,7 @@ class KeptFrame : public Extraction {
         std::vector<shader::EntityRow> still = frame.entities;
         for (const uint32_t row : frame.movingRows)
             still.at(row) = {};
-        if (frame.stillRevision == stillRevision) {
+        if (frame.staticRevision == staticRevision) {
             ASSERT_EQ(still.size(), stillRows.size());
             for (size_t row = 0; row < still.size(); ++row)
                 EXPECT_TRUE(isIdenticalBytes(still[row], stillRows[row])) << row;
@@ -126,9 +126,9 @@ class KeptFrame : public Extraction {
 
     FrameExtractor extractor;
     uint64_t revision = 0;
-    uint64_t stillRevision = 0;
+    uint64_t staticRevision = 0;
     std::vector<shader::EntityRow> rows;
-    std::vector<shader::EntityMotion> stillMotions;
+    std::vector<shader::EntityMotion> staticMotions;
     std::vector<shader::EntityRow> stillRows;
 };
 
@@ -136,32 +136,32 @@ TEST_F(KeptFrame, AStillFrameChangesNothing) {
     addBox({0.0, 0.0, -10.0});
     addBox({1.0, 0.0, -10.0});
     EXPECT_TRUE(update().changes.all);
-    const uint64_t before = extractor.update(world, layout, request).value()->stillRevision;
+    const uint64_t before = extractor.update(world, layout, request).value()->staticRevision;
     revision = 0;
     const ExtractedFrame& frame = *extractor.update(world, layout, request).value();
     EXPECT_FALSE(frame.changes.all);
     EXPECT_TRUE(frame.changes.rows.empty());
     EXPECT_TRUE(frame.movingRows.empty());
-    EXPECT_TRUE(frame.stillMotions.empty());
+    EXPECT_TRUE(frame.staticMotions.empty());
     EXPECT_TRUE(frame.movingMotions.empty());
-    EXPECT_EQ(frame.stillRevision, before);
+    EXPECT_EQ(frame.staticRevision, before);
 }
 
-TEST_F(KeptFrame, WhatIsWrittenToMovesFromThenOnAndLeavesTheOthersStill) {
+TEST_F(KeptFrame, AWrittenEntityBecomesAMoverAndTheOthersStayStatic) {
     addBox({0.0, 0.0, -10.0});
     const ecs::Entity written = addBox({1.0, 0.0, -10.0});
-    const uint64_t before = update().stillSet;
+    const uint64_t before = update().staticSet;
     transformOf(written).transform.translation.x = 1.5;
-    const uint64_t joined = update().stillSet;
+    const uint64_t joined = update().staticSet;
     EXPECT_NE(joined, before);
     transformOf(written).transform.translation.x = 2.0;
     const ExtractedFrame& frame = update();
-    EXPECT_EQ(frame.stillSet, joined);
+    EXPECT_EQ(frame.staticSet, joined);
     EXPECT_EQ(frame.movingRows, std::vector<uint32_t>{1});
     EXPECT_EQ(frame.changes.rows, std::vector<uint32_t>{1});
 }
 
-TEST_F(KeptFrame, WhoeverIsNotWrittenToAnyMoreStandsStillAgainWithOthers) {
+TEST_F(KeptFrame, AnEntityNoLongerWrittenBecomesStaticAgainWithOthers) {
     std::vector<ecs::Entity> boxes;
     for (int i = 0; i < 100; ++i)
         boxes.push_back(addBox({double(i % 10), double(i / 10), -30.0}));
@@ -173,18 +173,18 @@ TEST_F(KeptFrame, WhoeverIsNotWrittenToAnyMoreStandsStillAgainWithOthers) {
     EXPECT_TRUE(update().movingRows.empty());
 }
 
-TEST_F(KeptFrame, ACameraThatMovedPlacesAllRowsAnewAndListsNone) {
+TEST_F(KeptFrame, ACameraMoveUpdatesAllRowsAndRebuildsNone) {
     addBox({0.0, 0.0, -10.0});
     addMover({1.0, 0.0, -10.0});
     const ExtractedFrame first = update();
     transformOf(camera).transform.translation.x = 0.5;
     const ExtractedFrame& frame = update();
     EXPECT_TRUE(frame.changes.all);
-    EXPECT_EQ(frame.stillSet, first.stillSet);
-    EXPECT_NE(frame.stillRevision, first.stillRevision);
+    EXPECT_EQ(frame.staticSet, first.staticSet);
+    EXPECT_NE(frame.staticRevision, first.staticRevision);
 }
 
-TEST_F(KeptFrame, UnderAMovingCameraOnlyWhatHasAScaleOfItsOwnMoves) {
+TEST_F(KeptFrame, OnlyEntitiesWithABlurScaleMoveUnderAMovingCamera) {
     addBox({0.0, 0.0, -10.0});
     const ecs::Entity scaled = addBox({1.0, 0.0, -10.0});
     const ecs::Entity child = addBox({2.0, 0.0, -10.0});
@@ -196,20 +196,20 @@ TEST_F(KeptFrame, UnderAMovingCameraOnlyWhatHasAScaleOfItsOwnMoves) {
         request.exposure.raster = request.exposure.close = seconds;
         return update();
     };
-    const uint64_t listed = updateAt(1.0).stillSet;
+    const uint64_t listed = updateAt(1.0).staticSet;
     EXPECT_TRUE(updateAt(1.1).movingRows.empty());
-    EXPECT_EQ(updateAt(1.2).stillSet, listed) << "nothing is listed anew";
+    EXPECT_EQ(updateAt(1.2).staticSet, listed) << "nothing is listed anew";
     world.registry.get<scene::MotionBlur>(scaled).exclude = true;
-    const uint64_t joined = updateAt(1.3).stillSet;
+    const uint64_t joined = updateAt(1.3).staticSet;
     EXPECT_NE(joined, listed);
     const ExtractedFrame& frame = updateAt(1.4);
-    EXPECT_EQ(frame.stillSet, joined);
+    EXPECT_EQ(frame.staticSet, joined);
     EXPECT_EQ(frame.movingRows, (std::vector<uint32_t>{1, 2}));
     request.exposure.cap.movers.emplace_back(frame.entityHandles[0], 0.5);
     EXPECT_EQ(updateAt(1.5).movingRows, (std::vector<uint32_t>{0, 1, 2}));
 }
 
-TEST_F(KeptFrame, MoreChangesThanAreRememberedAreNotMissed) {
+TEST_F(KeptFrame, LogOverflowMissesNoChange) {
     const ecs::Entity first = addBox({0.0, 0.0, -10.0});
     const ecs::Entity second = addBox({1.0, 0.0, -10.0});
     update();
@@ -219,7 +219,7 @@ TEST_F(KeptFrame, MoreChangesThanAreRememberedAreNotMissed) {
     EXPECT_TRUE(update().changes.all);
 }
 
-TEST_F(KeptFrame, AnotherWorldIsListedAnew) {
+TEST_F(KeptFrame, AnotherWorldRebuildsTheRows) {
     addBox({0.0, 0.0, -10.0});
     update();
     world = scene::World{};
@@ -540,19 +540,19 @@ class EditedWorld : public KeptFrame {
     std::vector<ecs::Entity> entities;
     double seconds = 1.0;
     double exposureSeconds = 0.5;
-    uint64_t stillSet = 0;
+    uint64_t staticSet = 0;
 };
 
 TEST_F(EditedWorld, TheKeptFrameEqualsANewOneBitByBit) {
     size_t refreshed = 0;
-    size_t placedAnew = 0;
+    size_t recomputed = 0;
     for (uint32_t seed = 1; seed <= 48; ++seed) {
         world = scene::World{};
         layout = {};
         request = {};
         entities.clear();
         extractor = FrameExtractor();
-        revision = stillRevision = 0;
+        revision = staticRevision = 0;
         seconds = 1.0;
         addMesh(scene::AlphaMode::Opaque, 1);
         camera = request.camera = addCamera({});
@@ -563,26 +563,26 @@ TEST_F(EditedWorld, TheKeptFrameEqualsANewOneBitByBit) {
             SCOPED_TRACE(fmt::format("seed {}, frame {}", seed, frame));
             for (uint32_t edits = below(3); edits > 0; --edits)
                 edit();
-            const uint64_t setBefore = stillSet;
+            const uint64_t setBefore = staticSet;
             const ExtractedFrame& kept = update();
-            stillSet = kept.stillSet;
+            staticSet = kept.staticSet;
             refreshed += !kept.changes.all;
-            placedAnew += kept.changes.all && stillSet == setBefore;
+            recomputed += kept.changes.all && staticSet == setBefore;
             if (HasFailure())
                 return;
         }
     }
     EXPECT_GT(refreshed, 500u) << "or it was not tried";
-    EXPECT_GT(placedAnew, 100u);
+    EXPECT_GT(recomputed, 100u);
 }
 
 template <class T> void expectWatched() {
     ecs::Registry registry;
     const ecs::Entity entity = registry.create();
     WorldWatch watch;
-    (void)watch.look(registry);
+    (void)watch.update(registry);
     registry.add(entity, T{});
-    const WorldChanges changes = watch.look(registry);
+    const WorldChanges changes = watch.update(registry);
     EXPECT_TRUE(changes.structure || !changes.placed.empty()) << typeid(T).name();
 }
 
@@ -590,7 +590,7 @@ template <class... Components> void expectAllWatched(scene::ComponentList<Compon
     (expectWatched<Components>(), ...);
 }
 
-TEST(WorldWatch, SeesEachComponentThatPlacesAnEntity) {
+TEST(WorldWatch, EachPlacingComponentIsWatched) {
     expectAllWatched(scene::PlacingComponents());
 }
 

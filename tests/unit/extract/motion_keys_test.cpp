@@ -66,7 +66,7 @@ double findLargestDeviation(const MotionKeys& keys, const MatrixAt& matrixAt) {
     return largest;
 }
 
-TEST(MotionKeys, WhatStandsStillHasOneKey) {
+TEST(MotionKeys, AStaticEntityHasOneKey) {
     const MotionKeys keys = compute([](double) { return moved({1.0, 2.0, -3.0}); });
     ASSERT_EQ(keys.keys.size(), 1u);
     EXPECT_TRUE(keys.followsExactly);
@@ -75,7 +75,7 @@ TEST(MotionKeys, WhatStandsStillHasOneKey) {
     EXPECT_EQ(interpolateKeys(keys.keys, 0.7), moved({1.0, 2.0, -3.0}));
 }
 
-TEST(MotionKeys, AStraightWayHasTwo) {
+TEST(MotionKeys, AStraightMotionHasTwoKeys) {
     const MotionKeys keys = compute([](double s) { return moved({s * 3.0, 0.0, -5.0 + s}); });
     ASSERT_EQ(keys.keys.size(), 2u);
     EXPECT_TRUE(keys.followsExactly);
@@ -95,7 +95,7 @@ TEST(MotionKeys, ASpinStaysWithinTheTolerance) {
     }
 }
 
-TEST(MotionKeys, WholeTurnsThatFitTheInstantsAreSeen) {
+TEST(MotionKeys, WholeTurnsBetweenProbesAreDetected) {
     // At both ends, or at each sixteenth of the exposure, it has its first pose.
     for (const double turns : {1.0, 16.0, 32.0, 64.0}) {
         const MotionKeys keys =
@@ -104,14 +104,14 @@ TEST(MotionKeys, WholeTurnsThatFitTheInstantsAreSeen) {
     }
 }
 
-TEST(MotionKeys, MoreKeysTheNearerTheCamera) {
+TEST(MotionKeys, NearerMotionHasMoreKeys) {
     const MatrixAt matrixAt = [](double s) { return spun(s); };
     KeyTolerance near = perspective();
     near.cameraPath = {dvec3(0.0), dvec3(0.0, 0.0, -4.0)};
     EXPECT_GT(compute(matrixAt, near).keys.size(), compute(matrixAt).keys.size());
 }
 
-TEST(MotionKeys, AJumpTakesAllKeysAndSaysSo) {
+TEST(MotionKeys, AJumpTakesAllKeysAndIsFlagged) {
     const MatrixAt matrixAt = [](double s) { return moved({s < 0.4 ? 0.0 : 2.0, 0.0, -5.0}); };
     const MotionKeys keys = compute(matrixAt);
     EXPECT_EQ(keys.keys.size(), kMaxKeyIntervals + 1);
@@ -120,7 +120,7 @@ TEST(MotionKeys, AJumpTakesAllKeysAndSaysSo) {
     EXPECT_NEAR(interpolateKeys(keys.keys, 0.402)[3].x, 2.0, 1e-6);
 }
 
-TEST(MotionKeys, AMatrixThatIsNotFiniteHasNone) {
+TEST(MotionKeys, ANonFiniteMatrixHasNoKeys) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
     for (const double bad : {nan, infinite}) {
@@ -138,7 +138,7 @@ TEST(MotionKeys, AMatrixThatIsNotFiniteHasNone) {
                      .has_value());
 }
 
-TEST(MotionKeys, WhatIsScaledToNothingForAWhileHasKeys) {
+TEST(MotionKeys, EntitiesScaledToZeroForAWhileHaveKeys) {
     const MotionKeys keys = compute([](double s) {
         return glm::scale(moved({0.0, 0.0, -5.0}), dvec3(std::max(0.0, s - 0.5)));
     });
@@ -247,7 +247,7 @@ DeformedMotion compute(const DeformationAt& shape, double scale = 1.0) {
     return motion.value_or(DeformedMotion{});
 }
 
-/// How far, in eye space, any vertex is from where interpolation between keys puts it.
+/// How far, in camera-relative space, any vertex is from where interpolation between keys puts it.
 double findLargestDeviation(
     const DeformationKeys& shape, const DeformationAt& deformAt, double scale = 1.0
 ) {
@@ -392,7 +392,7 @@ TEST(DeformationKeys, AJumpIsDrawnOutOverTheShortestInterval) {
     EXPECT_EQ(motion.shape.keys.size(), kMaxDeformationIntervals + 1u);
 }
 
-TEST(DeformationKeys, AShapeThatIsNowhereForAWhileHasNone) {
+TEST(DeformationKeys, AShapeThatIsNotFiniteForAWhileHasNoKeys) {
     const scene::Primitive rod = makeRod();
     const scene::PoseReach reach = scene::computePoseReach({&rod, 1});
     const auto still = [](double) { return placed(1.0); };

@@ -73,7 +73,7 @@ TEST_F(Particles, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
     EXPECT_TRUE(sameRows(extractAll(), alone));
 }
 
-TEST_F(Particles, LieFarToNearWhicheverEmitterCameFirst) {
+TEST_F(Particles, ParticlesAreSortedFarToNearAcrossEmitters) {
     emitter.velocity = dvec3(0.0, 0.0, 1.0);
     emitter.coneDegrees = 180.0;
     emitter.radius = 2.0;
@@ -104,7 +104,7 @@ TEST_F(Particles, LieFarToNearWhicheverEmitterCameFirst) {
         EXPECT_EQ(permuted.rows[i].placeAge, tables.rows[i].placeAge) << i;
 }
 
-TEST_F(Particles, AreBornWhereTheirEntityWasAndStayInTheWorld) {
+TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     emitter = {};
     emitter.bursts = {{.seconds = 0.25, .count = 1}};
     emitter.inherit = 0.5;
@@ -154,7 +154,7 @@ TEST_F(Particles, AnExcludedEmitterAndACutStandStill) {
     EXPECT_EQ(extractAll().rows.size(), atInstant);
 }
 
-TEST_F(Particles, OfHiddenEmittersAndFromBeforeTheyAppearedAreNotThere) {
+TEST_F(Particles, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
     const size_t all = extractAll().rows.size();
@@ -166,7 +166,7 @@ TEST_F(Particles, OfHiddenEmittersAndFromBeforeTheyAppearedAreNotThere) {
     EXPECT_TRUE(extractAll().empty());
 }
 
-TEST_F(Particles, MoreThanAPictureShowsAreRefusedByTheEmittersName) {
+TEST_F(Particles, TooManyParticlesAreRefusedByTheEmittersName) {
     emitter.spans[0].perSecond = 60000.0;
     emitter.lifeSpread = 0.0;
     emitter.lifeSeconds = 1.0;
@@ -244,7 +244,7 @@ class ParticleInstants : public Particles {
         .surfaceBytes = std::numeric_limits<uint64_t>::max()};
 };
 
-TEST_F(ParticleInstants, AreOfTheRectangleInWhichAnOpaqueMoverMeetsTheParticles) {
+TEST_F(ParticleInstants, InstantsCoverTheRectangleWhereMoversMeetParticles) {
     EXPECT_FALSE(plan());
     const ecs::Entity mover = addBox({0, 1, -8});
     EXPECT_FALSE(plan()) << "it does not move";
@@ -252,15 +252,15 @@ TEST_F(ParticleInstants, AreOfTheRectangleInWhichAnOpaqueMoverMeetsTheParticles)
     const auto found = plan();
     ASSERT_TRUE(found);
     EXPECT_EQ(found->instantCount, 12u) << "as many in each part";
-    EXPECT_EQ(found->partCount, shader::kMostSurfaceParts);
+    EXPECT_EQ(found->partCount, shader::kMaxSurfaceParts);
     EXPECT_LT(found->sizePx.x, request.width / 2);
     EXPECT_LE(found->originPx.x + found->sizePx.x, request.width);
     EXPECT_LE(found->originPx.y + found->sizePx.y, request.height);
     world.registry.get<scene::LocalTransform>(mover).transform.translation.x = 14.0;
-    EXPECT_FALSE(plan()) << "it moves beside them";
+    EXPECT_FALSE(plan()) << "it moves next to them";
 }
 
-TEST_F(ParticleInstants, OfACameraThatMovesAreOfAllThatParticlesCover) {
+TEST_F(ParticleInstants, InstantsUnderAMovingCameraCoverAllParticles) {
     world.registry.add(camera, scene::LinearVelocity{{1, 0, 0}});
     const auto found = plan();
     ASSERT_TRUE(found);
@@ -270,7 +270,7 @@ TEST_F(ParticleInstants, OfACameraThatMovesAreOfAllThatParticlesCover) {
     EXPECT_FALSE(plan());
 }
 
-TEST_F(ParticleInstants, ComeInOnePartWhereParticlesOnlyAddLight) {
+TEST_F(ParticleInstants, AdditiveParticlesHaveOnePart) {
     world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
     for (auto [entity, component] : world.registry.view<scene::ParticleEmitter>())
         component.blend = scene::ParticleBlend::Add;
@@ -279,7 +279,7 @@ TEST_F(ParticleInstants, ComeInOnePartWhereParticlesOnlyAddLight) {
     EXPECT_EQ(plan()->instantCount, 15u);
 }
 
-TEST_F(ParticleInstants, AreAsManyAsTheMethodAndTheMemoryAllow) {
+TEST_F(ParticleInstants, InstantsAreLimitedByTheMethodAndTheMemory) {
     world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
     LayerLimits limits = kLimits;
     limits.instants = 3;
@@ -293,7 +293,7 @@ TEST_F(ParticleInstants, AreAsManyAsTheMethodAndTheMemoryAllow) {
     EXPECT_FALSE(plan(limits));
 }
 
-TEST(ParticleFormulas, PlacesAreWhatSmallStepsOfGravityAndDragComeTo) {
+TEST(ParticleFormulas, PlacesAgreeWithSmallStepsOfGravityAndDrag) {
     const shader::ParticleRow row = makeRow({3.0f, 5.0f, -1.0f});
     for (const double drag : {0.0, 1e-6, 0.01, 0.3, 2.0, 40.0}) {
         shader::ParticleEmitterRow emitter{};
@@ -348,7 +348,7 @@ TEST(ParticleFormulas, AStreakIsTheMeanOfTheRoundParticleAtAllInstants) {
                 }
 }
 
-TEST(ParticleFormulas, OutsideTheSpanOfItsWayAParticleDoesNotCoverThePoint) {
+TEST(ParticleFormulas, AParticleCoversNoPointOutsideItsPath) {
     for (const vec2& way : {vec2(3.0f, 1.0f), vec2(-20.0f, 35.0f)})
         for (float x = -30.5f; x < 16.0f; x += 2.9f) {
             const vec2 point(x, 0.7f * x + 4.0f);

@@ -85,7 +85,7 @@ TEST_F(ShadowPlanOfScenes, AMoverAroundTheCameraHasTheLargestLayer) {
     EXPECT_EQ(plan.maps.back().sizePx, request.shadows.mapSize / 4);
 }
 
-TEST_F(ShadowPlanOfScenes, WhatIsFlatHasFewerLayersThanACube) {
+TEST_F(ShadowPlanOfScenes, FlatMoversHaveFewerLayersThanACube) {
     request.shadows.mode = ShadowMode::Blurred;
     for (const dvec3 scale : {dvec3(1.0), dvec3(0.9, 0.9, 0.1)}) {
         const ecs::Entity mover =
@@ -98,7 +98,7 @@ TEST_F(ShadowPlanOfScenes, WhatIsFlatHasFewerLayersThanACube) {
     EXPECT_LT(plan.movers[1].partCount, plan.movers[0].partCount);
 }
 
-TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightAsks) {
+TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightRequires) {
     request.shadows.mode = ShadowMode::Blurred;
     request.shadows.mapSize = 4096;
     const ecs::Entity turning =

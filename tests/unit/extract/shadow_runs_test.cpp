@@ -72,12 +72,12 @@ struct MoverBeforeLight {
         return findRunInstants(caster, path, layers, toLight);
     }
 
-    [[nodiscard]] std::vector<shader::ShadowRun> runs(const dvec3& eye = dvec3(0.0)) const {
+    [[nodiscard]] std::vector<shader::CasterSpan> runs(const dvec3& eye = dvec3(0.0)) const {
         return makeRuns(caster, path, layers, toLight, runInstants(), eye);
     }
 
     /// The layer for an instant of the exposure.
-    [[nodiscard]] const MoverLayer& layerOf(const shader::ShadowRun& run) const {
+    [[nodiscard]] const MoverLayer& layerOf(const shader::CasterSpan& run) const {
         return *std::find_if(layers.begin(), layers.end(), [&](const MoverLayer& layer) {
             return layer.firstTexel == run.firstTexel;
         });
@@ -109,7 +109,7 @@ class ShadowRuns : public ::testing::Test {
     std::mt19937 mRandom{11};
 };
 
-TEST_F(ShadowRuns, TakePointsToWhereEachInstantHasThem) {
+TEST_F(ShadowRuns, RunsMapPointsToTheirPlaceAtEachInstant) {
     size_t lengths[shader::kMaxRunInstants + 1] = {};
     for (int i = 0; i < 300; ++i) {
         const Way way{uniform(0, 3) * direction(), direction(), std::exp(uniform(-4.0, 1.5))};
@@ -119,7 +119,7 @@ TEST_F(ShadowRuns, TakePointsToWhereEachInstantHasThem) {
         ++lengths[length];
         const auto runs = mover.runs(eye);
         for (uint32_t instant = 0; instant < mover.path.instants.size(); ++instant) {
-            const shader::ShadowRun& run = runs.at(1 + instant / length);
+            const shader::CasterSpan& run = runs.at(1 + instant / length);
             const dmat4& back = mover.path.instants[instant].rasterFromInstant;
             const dmat4 exact = mapToLayer(mover.caster, back, mover.toLight, mover.layerOf(run));
             // A point of the mover at this instant, or one in its shadow.
@@ -127,18 +127,18 @@ TEST_F(ShadowRuns, TakePointsToWhereEachInstantHasThem) {
                                 uniform(0, 2) * direction() - uniform(0, 20) * mover.toLight;
             const dvec3 wanted(exact * dvec4(point, 1.0));
             const dvec3 found = apply(run.first, run.step, instant % length, point - eye);
-            ASSERT_LT(std::abs(found.x - wanted.x), kMostRunError + 0.01) << i << ": " << length;
-            ASSERT_LT(std::abs(found.y - wanted.y), kMostRunError + 0.01) << i << ": " << length;
-            ASSERT_LT(std::abs(found.z - wanted.z) * kSize, kMostRunError + 0.01) << i;
+            ASSERT_LT(std::abs(found.x - wanted.x), kMaxRunError + 0.01) << i << ": " << length;
+            ASSERT_LT(std::abs(found.y - wanted.y), kMaxRunError + 0.01) << i << ": " << length;
+            ASSERT_LT(std::abs(found.z - wanted.z) * kSize, kMaxRunError + 0.01) << i;
         }
     }
     for (const uint32_t length : {1u, 2u, 4u})
         EXPECT_GT(lengths[length], 10u) << "runs of " << length << " instants were hardly tried";
 }
 
-TEST_F(ShadowRuns, BeginWithTheRasterInstants) {
+TEST_F(ShadowRuns, RunsBeginWithTheRasterInstants) {
     const MoverBeforeLight mover({{1, 0, 0}, {0, 0, 1}, 0.4}, direction(), 16, 2);
-    const shader::ShadowRun run = mover.runs().front();
+    const shader::CasterSpan run = mover.runs().front();
     EXPECT_EQ(run.firstTexel, 0u);
     const dvec3 point = mover.caster.sphere.centre + dvec3(0.3, -0.2, 0.5);
     const dvec4 clip = mover.layers.front().view.clipFromWorld * dvec4(point, 1.0);
@@ -152,13 +152,13 @@ TEST_F(ShadowRuns, BeginWithTheRasterInstants) {
         EXPECT_EQ(step, math::vec4(0.0f));
 }
 
-TEST_F(ShadowRuns, OfWhatStandsStillThereIsOneAlone) {
+TEST_F(ShadowRuns, AStaticMoverHasOneRun) {
     const MoverBeforeLight mover({}, direction(), 0, 0);
     EXPECT_EQ(mover.runInstants(), 0u);
     EXPECT_EQ(mover.runs().size(), 1u);
 }
 
-TEST_F(ShadowRuns, AreAsShortAsTheMoverHasLayers) {
+TEST_F(ShadowRuns, RunsAreAsShortAsTheMoversLayers) {
     const Way straight{{2, 0, 0}, {0, 1, 0}, 0.0};
     EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 0).runInstants(), 4u);
     EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 4).runInstants(), 4u);
@@ -176,7 +176,7 @@ TEST_F(ShadowRuns, AreAsShortAsTheMoverHasLayers) {
         EXPECT_EQ(uneven[i].firstTexel / (kSize * kSize), wanted[i]);
 }
 
-TEST_F(ShadowRuns, AreEnoughForAsManyInstantsAsAreReadAtATime) {
+TEST_F(ShadowRuns, RunsCoverAllInstantsReadAtATime) {
     const Way turning{{0, 0, 0}, {0, 0, 1}, 6.0};
     for (const uint32_t count : {1u, 3u, 5u, 6u, 63u, 64u}) {
         const MoverBeforeLight mover(turning, {0, 1, 0}, count, 0);
@@ -193,7 +193,7 @@ TEST_F(ShadowRuns, ASlopeIsExactOnAPlane) {
     for (int i = 0; i < 50; ++i) {
         const Way way{direction(), direction(), 0.2};
         const MoverBeforeLight mover(way, direction(), 1, 0);
-        shader::ShadowRun run = mover.runs().back();
+        shader::CasterSpan run = mover.runs().back();
         dvec3 normal = direction();
         const double cosine = glm::dot(normal, mover.toLight);
         if (cosine < 0.1)
@@ -243,7 +243,7 @@ TEST_F(ShadowRuns, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
     EXPECT_NEAR(glm::length(found - point), 0.0, 1e-9);
 }
 
-TEST_F(ShadowRuns, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
+TEST_F(ShadowRuns, RotationOfAFlatMoverPreservesTheRaysPlanePoint) {
     ShadowCaster disc;
     disc.sphere = {dvec3(0.0), 2.0};
     disc.shape[1][1] = 2500.0;
@@ -330,7 +330,7 @@ bool isShaded(const dvec3& point, const LightPlace& light, const Sphere& caster)
     );
 }
 
-TEST_F(ShadowTilesOfScenes, HoldEveryPointThatAShadowMayReach) {
+TEST_F(ShadowTilesOfScenes, TilesContainEveryPointThatAShadowMayReach) {
     size_t shaded = 0;
     size_t spared = 0;
     for (int scene = 0; scene < 400; ++scene) {
@@ -380,7 +380,7 @@ TEST_F(ShadowTilesOfScenes, AShadowGrowsBelowALamp) {
     }
 }
 
-TEST_F(ShadowTilesOfScenes, KeepMoversApart) {
+TEST_F(ShadowTilesOfScenes, TilesSeparateMovers) {
     ShadowTiles tiles({4 * kTile, 2 * kTile + 1});
     tiles.mark(0, PixelBox{{0.0, 0.0}, {kTile - 1.0, 1.0}});
     tiles.mark(31, PixelBox{{2.0 * kTile, -9.0}, {9000.0, 1.5 * kTile}});
@@ -392,7 +392,7 @@ TEST_F(ShadowTilesOfScenes, KeepMoversApart) {
     );
 }
 
-TEST_F(ShadowTilesOfScenes, MayBeAnywhereWhereThereIsNoBox) {
+TEST_F(ShadowTilesOfScenes, AMoverWithoutABoxIsInAllTiles) {
     ShadowPicture picture = makePicture();
     picture.clipFromWorld = math::clipFromViewPerspective(0.8, 333.0 / 177.0, 0.1);
     const LightPlace sun(0.0, 1.0, 0.0, 0.0);

@@ -67,7 +67,7 @@ std::string readText(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-TEST(Flythrough, IsReadBackToTheLastBit) {
+TEST(Flythrough, AFlythroughIsReadBackBitForBit) {
     const TempFolder folder;
     const auto path = folder.path() / "f.json";
     const Flythrough written = makeFull();
@@ -99,7 +99,7 @@ TEST(Flythrough, IsReadBackToTheLastBit) {
     EXPECT_EQ(readText(path), readText(folder.path() / "g.json"));
 }
 
-TEST(Flythrough, ItsRateIsANumberOrAFraction) {
+TEST(Flythrough, TheRateIsANumberOrAFraction) {
     const auto read = [](const std::string& fps) {
         return parseFlythrough(
             R"({"version": 1, "fps": )" + fps +
@@ -125,7 +125,7 @@ TEST(Flythrough, ItsRateIsANumberOrAFraction) {
     }
 }
 
-TEST(Flythrough, NeedsNoMoreThanAVersionAndAKey) {
+TEST(Flythrough, OnlyAVersionAndAKeyAreRequired) {
     const auto read = parseFlythrough(
         R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 0, 0]}]})", "f"
     );
@@ -137,7 +137,7 @@ TEST(Flythrough, NeedsNoMoreThanAVersionAndAKey) {
     EXPECT_TRUE(scene::validatePath(makePath(read.value())).ok());
 }
 
-TEST(Flythrough, WhatASchemaCannotSayIsRefusedByName) {
+TEST(Flythrough, FaultsBeyondTheSchemaAreRefusedByName) {
     const auto file = [](const std::string& keys) {
         return "{\"version\": 1,\n\"keys\": [\n" + keys + "]}";
     };
@@ -229,7 +229,7 @@ TEST(Flythrough, TheCameraFollowsItsKeys) {
     EXPECT_EQ(scene::yFovAt(world, camera, 1.99), scene::yFovAt(world, camera, 0.25));
 }
 
-TEST(Flythrough, WithoutAFieldOfViewTheLensIsTheFirstCameras) {
+TEST(Flythrough, TheDefaultFieldOfViewIsTheFirstCameras) {
     scene::World world;
     Flythrough flythrough;
     flythrough.keys = {key(0, {0, 0, 5})};
@@ -323,7 +323,7 @@ scene::CameraShutter openFor(double degrees, scene::ShutterPhase phase) {
     return shutter;
 }
 
-TEST(TimeRamp, WithoutScalesBothTimesAreTheSameToTheBit) {
+TEST(TimeRamp, FilmTimeEqualsSceneTimeWithoutScales) {
     const TimeRamp ramp = makeRamp({{0.0, std::nullopt}, {3.0, std::nullopt}});
     for (const double seconds : {-1.0, 0.0, 0.1, 1.0 / 3.0, 1.0e9}) {
         EXPECT_EQ(ramp.filmFromScene(seconds), seconds);
@@ -338,7 +338,7 @@ TEST(TimeRamp, WithoutScalesBothTimesAreTheSameToTheBit) {
     EXPECT_EQ(own.rasterTime, plain.rasterTime);
 }
 
-TEST(TimeRamp, OneScaleHoldsForAllTime) {
+TEST(TimeRamp, ASingleScaleAppliesToAllTime) {
     const TimeRamp ramp = makeRamp({{1.0, 0.25}});
     for (const double seconds : {-2.0, 0.0, 0.5, 1.0, 7.0}) {
         EXPECT_NEAR(ramp.filmFromScene(seconds), 4.0 * seconds, 1.0e-12);

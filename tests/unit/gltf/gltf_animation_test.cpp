@@ -154,7 +154,7 @@ TEST(GltfAnimation, KeysWithoutMeaningAreRefused) {
     }
 }
 
-TEST(GltfAnimation, OfKeysAtOneTimeTheLastIsKept) {
+TEST(GltfAnimation, TheLastOfKeysAtOneTimeIsUsed) {
     const std::vector<float> times = {0, 1, 1, 2};
     const std::vector<float> values = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
     const LoadedScene scene =

@@ -214,7 +214,7 @@ TEST(GltfDocument, WholeNumbersWrittenWithAPointAreAccepted) {
     EXPECT_EQ(scene.world.registry.aliveCount(), 1u);
 }
 
-TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
+TEST(SceneHash, TheHashChangesWithTheSceneItsBuffersAndItsPictures) {
     const TempFolder folder;
     const std::string scene = R"({"asset": {"version": "2.0"},
         "buffers": [{"uri": "a.bin", "byteLength": 1},
@@ -242,7 +242,7 @@ TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
     EXPECT_EQ(seen.size(), 5u);
 }
 
-TEST(SceneHash, CountsFilesOutsideTheFolderWhereTheyAreRead) {
+TEST(SceneHash, TheHashIncludesFilesOutsideTheFolderIfTheyAreRead) {
     const TempFolder folder;
     const fs::path scene = folder.write(
         "sub/s.gltf",
@@ -257,7 +257,7 @@ TEST(SceneHash, CountsFilesOutsideTheFolderWhereTheyAreRead) {
     EXPECT_NE(computeSceneHash(scene, io::Reach::Anywhere).value(), outside.value());
 }
 
-TEST(SceneHash, WhatIsNoSceneIsNamed) {
+TEST(SceneHash, AnInvalidSceneFileIsNamed) {
     const TempFolder folder;
     folder.write("s.gltf", "nothing");
     for (const char* name : {"s.gltf", "missing.gltf"}) {

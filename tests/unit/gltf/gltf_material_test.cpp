@@ -341,7 +341,7 @@ double linear(double encoded) {
     return std::pow((encoded / 255.0 + 0.055) / 1.055, 2.4);
 }
 
-TEST(GltfEnvironment, IsReadWithItsRotationAndIntensity) {
+TEST(GltfEnvironment, TheEnvironmentIsReadWithRotationAndIntensity) {
     const LoadedScene scene = expectLoads(loadMembers(sceneWith(
         "{" + std::string(kSides) + R"(,"intensity":2,"rotation":[0,0.70710678,0,0.70710678]})"
     )));
@@ -352,11 +352,11 @@ TEST(GltfEnvironment, IsReadWithItsRotationAndIntensity) {
     EXPECT_NEAR(seen.x, linear(200) * 255.0 / 128.0 * 2.0, 1e-2);
     EXPECT_NEAR(seen.y, linear(100) * 255.0 / 128.0 * 2.0, 1e-2);
     // Turned by 90 degrees about +Y: what the map has ahead is seen on the left.
-    const math::vec3 looked = environment.mapFromWorld * math::vec3(-1, 0, 0);
-    EXPECT_LT(glm::distance(looked, math::vec3(0, 0, -1)), 1e-5f);
+    const math::vec3 sampled = environment.mapFromWorld * math::vec3(-1, 0, 0);
+    EXPECT_LT(glm::distance(sampled, math::vec3(0, 0, -1)), 1e-5f);
 }
 
-TEST(GltfEnvironment, IsRefusedWithTheField) {
+TEST(GltfEnvironment, AnInvalidEnvironmentIsRefusedWithTheField) {
     const auto expectField = [](const std::string& light, const std::string& field) {
         const auto loaded = loadMembers(sceneWith(light));
         ASSERT_FALSE(loaded) << light;

@@ -249,7 +249,7 @@ TEST(GltfMesh, SparseIndicesHaveToIncreaseAndStayInside) {
 
 class BadAccessor : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-TEST_P(BadAccessor, IsRefused) {
+TEST_P(BadAccessor, ABadAccessorIsRefused) {
     GltfFile file;
     file.addView(kTriangle); // 36 bytes
     file.addViewJson(R"({"buffer":0,"byteLength":36,"byteStride":16})");
@@ -429,7 +429,7 @@ TEST(GatherVertices, InfluencesAndMorphTargetsFollowTheirVertices) {
     EXPECT_TRUE(gathered.morphTargets[1].positions.empty());
 }
 
-TEST(RemoveNonFinite, OnlyTheTrianglesThatHoldTheVertexGo) {
+TEST(RemoveNonFinite, OnlyTrianglesWithANonFiniteVertexAreRemoved) {
     for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
         scene::Primitive primitive;
         primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {bad, 0, 0}};
@@ -462,14 +462,14 @@ TEST(Tangents, AMirroredTextureHasANegativeSign) {
     EXPECT_EQ(primitive.tangents[0].w, -1.0f);
 }
 
-TEST(Tangents, TheyAreOrthogonalToASlantedNormal) {
+TEST(Tangents, TangentsAreOrthogonalToASlantedNormal) {
     scene::Primitive primitive = makeTriangle();
     primitive.normals.assign(3, glm::normalize(vec3(1, 0, 1)));
     makeTangents(primitive, {{0, 1}, {1, 1}, {0, 0}});
     expectVec(vec3(primitive.tangents[0]), glm::normalize(vec3(1, 0, -1)));
 }
 
-TEST(Tangents, WithoutAUsableTextureCoordinateTheyAreStillUnitAndOrthogonal) {
+TEST(Tangents, TangentsWithoutUsableTextureCoordinatesAreUnitAndOrthogonal) {
     scene::Primitive primitive = makeTriangle();
     primitive.normals = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
     makeTangents(primitive, {{0, 0}, {0, 0}, {0, 0}});

@@ -361,7 +361,7 @@ TEST(GltfInstancing, EachInstanceIsAnEntityBelowTheNode) {
     EXPECT_NEAR(turned.z, 4.0, 1e-12);
 }
 
-TEST(GltfInstancing, WhatIsNotGivenIsTheIdentityAndOtherAttributesOnlyCount) {
+TEST(GltfInstancing, MissingAttributesAreTheIdentityAndOthersAreIgnored) {
     const LoadedScene placed =
         expectLoads(makeInstancedFile().load(members(attributes(R"("TRANSLATION":1)"))));
     ASSERT_EQ(findDrawn(placed.world).size(), 2u);
@@ -465,7 +465,7 @@ const scene::MotionBlur* findBlur(const LoadedScene& loaded) {
     return nullptr;
 }
 
-TEST(GltfMotionBlur, IsReadFromExtras) {
+TEST(GltfMotionBlur, MotionBlurIsReadFromExtras) {
     const LoadedScene both =
         expectLoads(loadExtras(R"({"motionBlur":{"scale":0.5,"exclude":true}})"));
     ASSERT_TRUE(findBlur(both));
@@ -480,7 +480,7 @@ TEST(GltfMotionBlur, IsReadFromExtras) {
     EXPECT_EQ(findBlur(kept)->scale, 1.0);
 }
 
-TEST(GltfMotionBlur, OtherExtrasSayNothing) {
+TEST(GltfMotionBlur, OtherExtrasAreIgnored) {
     // tinygltf drops members that are null or empty.
     for (const char* extras :
          {"{}", "3", "[1]", R"("motionBlur")", R"({"other":{"scale":9}})", R"({"motionBlur":{}})"})
@@ -520,7 +520,7 @@ const scene::CameraLens* findLens(const LoadedScene& loaded) {
     return loaded.world.registry.find<scene::CameraLens>(loaded.world.cameras.at(0));
 }
 
-TEST(GltfLens, IsReadFromTheCamerasExtras) {
+TEST(GltfLens, TheLensIsReadFromTheCamerasExtras) {
     const LoadedScene all = expectLoads(
         loadLens(R"({"lens":{"fStop":2.8,"focusDistance":3,"sensorHeight":0.018,"blades":6,)"
                  R"("bladeRotation":0.5,"roundness":0.25,"squeeze":0.5,"blurScale":1.5}})")
@@ -595,7 +595,7 @@ TEST(GltfLens, BadValuesAreRefusedByName) {
     }
 }
 
-TEST(GltfVertexWaves, AreReadFromExtras) {
+TEST(GltfVertexWaves, VertexWavesAreReadFromExtras) {
     const LoadedScene loaded = expectLoads(loadExtras(
         R"({"vertexWaves":{"lean":[0.1,0,0],"space":"world","share":"height","axis":[0,0,1],)"
         R"("heldAt":0.5,"freeAt":2,"exponent":3,"waves":[{"displacement":[1,2,3],)"
@@ -653,7 +653,7 @@ TEST(GltfVertexWaves, UnknownMembersAreWarnedOf) {
     EXPECT_NE(loaded.warnings[1].find("waves[0] has a member 'amplitude'"), std::string::npos);
 }
 
-TEST(GltfParticles, AreReadFromExtras) {
+TEST(GltfParticles, ParticlesAreReadFromExtras) {
     const LoadedScene loaded = expectLoads(loadExtras(
         R"({"particles":{"spans":[{"fromSeconds":1,"untilSeconds":2,"perSecond":30}],)"
         R"("bursts":[{"seconds":3,"count":4}],"lifeSeconds":5,"lifeSpread":0.5,)"

@@ -36,7 +36,7 @@ TEST(QueueFamily, TheFirstThatDoesAllIsTaken) {
     EXPECT_EQ(chooseQueueFamily(families, true), 3u);
 }
 
-TEST(QueueFamily, OneThatOnlyPresentsOrTakesNoTimesIsNone) {
+TEST(QueueFamily, AFamilyThatOnlyPresentsOrHasNoTimestampsIsNotChosen) {
     const std::vector<QueueFamily> apart{{kAll, 64, false}, {VK_QUEUE_TRANSFER_BIT, 64, true}};
     EXPECT_EQ(chooseQueueFamily(apart, true), std::nullopt);
     const std::vector<QueueFamily> timeless{{kAll, 0, true}};
@@ -44,7 +44,7 @@ TEST(QueueFamily, OneThatOnlyPresentsOrTakesNoTimesIsNone) {
     EXPECT_EQ(chooseQueueFamily({}, false), std::nullopt);
 }
 
-TEST(DeviceChoice, ACardThatCannotShowPicturesHereIsPassedOverAloud) {
+TEST(DeviceChoice, ADeviceThatCannotPresentIsSkippedWithAMessage) {
     // A card under a display without a screen, and one of a data centre: lavapipe shows.
     for (const char* card : {"NVIDIA GeForce RTX 2080 Ti", "NVIDIA H100"}) {
         const std::vector<DeviceInfo> devices{
@@ -59,7 +59,7 @@ TEST(DeviceChoice, ACardThatCannotShowPicturesHereIsPassedOverAloud) {
     }
 }
 
-TEST(DeviceChoice, WhatWouldNotHaveBeenChosenAnywayIsNotMentioned) {
+TEST(DeviceChoice, UnchosenDevicesAreNotMentioned) {
     const std::vector<DeviceInfo> devices{
         makeInfo("card", "discrete", ""),
         makeInfo("llvmpipe", "software", kNoDisplay),
@@ -68,7 +68,7 @@ TEST(DeviceChoice, WhatWouldNotHaveBeenChosenAnywayIsNotMentioned) {
     EXPECT_EQ(describePassedOver(devices, devices[0]), Strings{});
 }
 
-TEST(DeviceChoice, AskedForByNameItIsRefusedWithTheReason) {
+TEST(DeviceChoice, ANamedUnusableDeviceIsRefusedWithTheReason) {
     const std::vector<DeviceInfo> devices{
         makeInfo("NVIDIA H100", "discrete", kNoDisplay), makeInfo("llvmpipe", "software", "")};
     const auto chosen = chooseDevice(devices, "h100");

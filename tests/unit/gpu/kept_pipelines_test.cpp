@@ -24,7 +24,7 @@ PipelineObjects makeObjects(uintptr_t value) {
         makeHandle<VkDescriptorSetLayout>(value + 2)};
 }
 
-TEST(KeptPipelines, OneIsHandedOverOnce) {
+TEST(KeptPipelines, ACachedPipelineIsReturnedOnce) {
     KeptPipelines kept(2);
     EXPECT_EQ(kept.take("a"), std::nullopt);
     EXPECT_EQ(kept.keep("a", makeObjects(16)), std::nullopt);
@@ -42,13 +42,13 @@ TEST(KeptPipelines, TheOldestLeavesWhereThereIsNoRoom) {
     EXPECT_EQ(kept.takeAll(), std::vector<PipelineObjects>());
 }
 
-TEST(KeptPipelines, WithoutRoomNothingIsKept) {
+TEST(KeptPipelines, ACacheWithoutRoomStoresNothing) {
     KeptPipelines kept(0);
     EXPECT_EQ(kept.keep("a", makeObjects(16)), makeObjects(16));
     EXPECT_EQ(kept.take("a"), std::nullopt);
 }
 
-TEST(KeptPipelines, OneThatFailedHalfWayIsNotKept) {
+TEST(KeptPipelines, APartlyCreatedPipelineIsNotCached) {
     KeptPipelines kept(1);
     PipelineObjects half = makeObjects(16);
     half.pipeline = VK_NULL_HANDLE;

@@ -31,7 +31,7 @@ TEST(MemoryBlocks, AFullBlockAndAnotherKindOfMemoryStartAnother) {
         plan.places,
         (std::vector<Place>{{0, 0}, {0, kBlockBytes - 1}, {1, 0}, {2, 0}, {3, 0}, {4, 0}})
     );
-    EXPECT_EQ(plan.blocks[3], (Block{2 * kBlockBytes, 2})) << "what is larger has one of its own";
+    EXPECT_EQ(plan.blocks[3], (Block{2 * kBlockBytes, 2})) << "a larger item has a separate block";
 }
 
 TEST(MemoryBlocks, AScenesThousandsOfTexturesNeedFewAllocations) {

@@ -178,7 +178,7 @@ TEST(MemoryType, EachUseFindsItsOwnOnEachLayout) {
     }
 }
 
-TEST(MemoryType, WhatTheCpuWritesIsCoherentAndNoneComesWithConditions) {
+TEST(MemoryType, MemoryWrittenByTheCpuIsCoherentAndUnconditional) {
     for (const Layout& layout : layouts())
         for (const MemoryUse use :
              {MemoryUse::Device, MemoryUse::Staging, MemoryUse::Stream, MemoryUse::Readback})

@@ -29,7 +29,7 @@ std::vector<uint8_t> makeBlob(const PipelineCacheOwner& owner = kOwner) {
     return blob;
 }
 
-TEST(PipelineCacheFile, HoldsWhatWasPacked) {
+TEST(PipelineCacheFile, PackedBytesAreUnpackedUnchanged) {
     const std::vector<uint8_t> blob = makeBlob();
     const std::vector<uint8_t> file = packPipelineCache(blob);
     const auto unpacked = unpackPipelineCache(file, kOwner);
@@ -38,7 +38,7 @@ TEST(PipelineCacheFile, HoldsWhatWasPacked) {
     EXPECT_EQ(unpacked.value()->size(), blob.size());
 }
 
-TEST(PipelineCacheFile, OneChangedByteAnywhereReachesNoDriver) {
+TEST(PipelineCacheFile, AnyChangedByteKeepsTheCacheFromDrivers) {
     const std::vector<uint8_t> file = packPipelineCache(makeBlob());
     for (size_t i = 0; i < file.size(); ++i) {
         std::vector<uint8_t> damaged = file;
@@ -52,7 +52,7 @@ TEST(PipelineCacheFile, OneChangedByteAnywhereReachesNoDriver) {
     }
 }
 
-TEST(PipelineCacheFile, ThatOfAnotherDriverIsLeftAloneWithoutAnError) {
+TEST(PipelineCacheFile, AnotherDriversCacheIsIgnoredWithoutAnError) {
     PipelineCacheOwner other = kOwner;
     other.uuid[3] = 0;
     const std::vector<uint8_t> file = packPipelineCache(makeBlob(other));
@@ -68,7 +68,7 @@ TEST(PipelineCacheFile, ThatOfAnotherDriverIsLeftAloneWithoutAnError) {
     EXPECT_FALSE(bare.value());
 }
 
-TEST(PipelineCacheFile, IsReadUpToALimitAndFromFilesAlone) {
+TEST(PipelineCacheFile, TheCacheIsReadFromFilesUpToALimit) {
     const test::TempFolder folder;
     const std::vector<uint8_t> file = packPipelineCache(makeBlob());
     const fs::path path =

@@ -27,7 +27,7 @@ RayTier tierOf(const test::ShaderModule& module) {
     return needs.capabilities.contains(4479) ? RayTier::Pipeline : RayTier::RayQuery;
 }
 
-TEST(ShaderModules, NoneNeedsAFeatureThatIsNotEnabled) {
+TEST(ShaderModules, AllModulesUseOnlyEnabledFeatures) {
     gpu::DeviceFeatures features;
     features.enableNeeded();
     for (const auto& module : readAll())
@@ -37,7 +37,7 @@ TEST(ShaderModules, NoneNeedsAFeatureThatIsNotEnabled) {
             ADD_FAILURE() << lacking;
 }
 
-TEST(ShaderModules, WhatIsNotEnabledIsFound) {
+TEST(ShaderModules, MissingFeaturesAreFound) {
     gpu::DeviceFeatures features;
     features.enableNeeded();
     features.core.features.shaderSampledImageArrayDynamicIndexing = VK_FALSE;
@@ -69,7 +69,7 @@ TEST(ShaderModules, TheScenesTexturesAreNamedOnlyInStagesThatSeeThem) {
         }
 }
 
-TEST(DeviceFeatures, WhatIsNeededIsNotMissingAndAnythingElseIs) {
+TEST(DeviceFeatures, OnlyRequiredFeaturesAreEnabled) {
     gpu::DeviceFeatures features;
     EXPECT_FALSE(features.findMissing().empty());
     features.enableNeeded();

@@ -28,7 +28,7 @@ using Formats = std::vector<VkFormat>;
 
 constexpr VkFormat kNone = VK_FORMAT_UNDEFINED;
 
-TEST(ShaderReflection, FindsTheFormatAtEachBinding) {
+TEST(ShaderReflection, TheFormatAtEachBindingIsFound) {
     EXPECT_EQ(
         reflectStorageFormats(accumulate_accumulate_comp),
         (Formats{kNone, VK_FORMAT_R32G32B32A32_SFLOAT})
@@ -43,7 +43,7 @@ TEST(ShaderReflection, FindsTheFormatAtEachBinding) {
     );
 }
 
-TEST(ShaderReflection, LeavesOutBuffersStructuresAndTheScenesSet) {
+TEST(ShaderReflection, BuffersStructuresAndTheScenesSetAreOmitted) {
     EXPECT_EQ(
         reflectStorageFormats(motion_blur_reveal_comp),
         (Formats{
@@ -143,7 +143,7 @@ checkMade(const Declared& declared, VkShaderStageFlagBits stage, const PipelineI
     return status.ok() ? "" : status.error().message;
 }
 
-TEST(ShaderInterface, WhatAModuleNamesMustBeBound) {
+TEST(ShaderInterface, AllBindingsOfAModuleMustBeBound) {
     constexpr auto kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
     EXPECT_EQ(checkMade({}, kCompute, makeInterface({kTexture, kStorage})), "");
     EXPECT_EQ(
@@ -179,7 +179,7 @@ TEST(ShaderInterface, ModulesDoNotNameTheSceneTexturesTheyLeaveAlone) {
         EXPECT_EQ(binding.set, 0u);
 }
 
-TEST(ShaderReflectionDeathTest, WhatIsNoSpirvOrIsCutShortIsRefused) {
+TEST(ShaderReflectionDeathTest, InvalidOrTruncatedSpirvIsRefused) {
     std::vector<uint32_t> words = makeModule({});
     words.pop_back();
     EXPECT_DEATH((void)reflectStorageFormats(words), "claims 4 words");

@@ -14,7 +14,7 @@ constexpr VkExtent2D kMade{640, 360};
 constexpr VkExtent2D kOther{640, 361};
 constexpr VkExtent2D kAny{UINT32_MAX, UINT32_MAX};
 
-TEST(SwapchainState, OnlyWhatNoLongerFitsIsMadeAnew) {
+TEST(SwapchainState, OnlyAnOutdatedSwapchainIsRecreated) {
     EXPECT_EQ(judgeSwapchain(VK_SUCCESS, kMade, kMade), SwapchainState::Fits);
     EXPECT_EQ(judgeSwapchain(VK_SUCCESS, kMade, kOther), SwapchainState::Fits);
     EXPECT_EQ(judgeSwapchain(VK_ERROR_OUT_OF_DATE_KHR, kMade, kMade), SwapchainState::Outdated);
@@ -27,7 +27,7 @@ TEST(SwapchainState, ADriverThatAlwaysSaysSuboptimalIsLeftAloneUntilTheSizeChang
     EXPECT_EQ(judgeSwapchain(VK_SUBOPTIMAL_KHR, kMade, kOther), SwapchainState::Outdated);
 }
 
-TEST(SwapchainState, WhatIsNoAnswerOfTheWindowSystemIsAnError) {
+TEST(SwapchainState, AnUnexpectedResultIsAnError) {
     EXPECT_THROW((void)judgeSwapchain(VK_ERROR_DEVICE_LOST, kMade, kMade), DeviceError);
     EXPECT_THROW((void)judgeSwapchain(VK_ERROR_OUT_OF_DEVICE_MEMORY, kMade, kMade), DeviceError);
 }
@@ -57,7 +57,7 @@ TEST(SurfaceFormat, AScreenOfThirtyBitsShowsPictures) {
     }
 }
 
-TEST(SurfaceFormat, WhatConvertsOnWritingIsNotTaken) {
+TEST(SurfaceFormat, SrgbFormatsAreNotChosen) {
     const std::vector<VkSurfaceFormatKHR> offered{
         inSrgb(VK_FORMAT_B8G8R8A8_SRGB),
         {VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_EXTENDED_SRGB_LINEAR_EXT}};

@@ -16,7 +16,7 @@ TEST(Timestamps, ACounterThatWrapsCountsOn) {
     }
 }
 
-TEST(Timestamps, WithoutAWrapTheyAreTheDifference) {
+TEST(Timestamps, TimesWithoutAWrapAreTheDifference) {
     for (const uint32_t bits : {36u, 40u, 64u}) {
         const uint64_t last = UINT64_MAX >> (64 - bits);
         EXPECT_EQ(countTicks(1000, 1500, bits), 500u) << bits;

@@ -8,7 +8,7 @@
 namespace shutter::gpu {
 namespace {
 
-TEST(UploadParts, WhatFitsIsOnePartAndNothingIsNone) {
+TEST(UploadParts, ASmallUploadIsOnePartAndAnEmptyOneNone) {
     EXPECT_EQ(splitUpload(0, 1), std::vector<UploadPart>{});
     EXPECT_EQ(splitUpload(7, 1), (std::vector<UploadPart>{{0, 7}}));
     EXPECT_EQ(splitUpload(kStagingBytes, 4), (std::vector<UploadPart>{{0, kStagingBytes}}));

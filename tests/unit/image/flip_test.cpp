@@ -72,7 +72,7 @@ float largestOf(const Image& map) {
     return *std::max_element(map.pixels.begin(), map.pixels.end());
 }
 
-TEST(Flip, AgreesWithItsAuthorsTool) {
+TEST(Flip, FlipAgreesWithItsAuthorsTool) {
     for (const Published& expected : kByAuthorsTool) {
         const PicturePair pair = makePicturePair(expected.name);
         ASSERT_FALSE(pair.reference.bytes.empty()) << expected.name;
@@ -82,7 +82,7 @@ TEST(Flip, AgreesWithItsAuthorsTool) {
     }
 }
 
-TEST(Flip, IsSymmetric) {
+TEST(Flip, FlipIsSymmetric) {
     const Image a = makeHashedNoise(37, 29, 3, 1);
     const Image b = makeHashedNoise(37, 29, 3, 2);
     EXPECT_EQ(computeFlip(a, b).mean, computeFlip(b, a).mean);
@@ -213,7 +213,7 @@ TEST(HdrFlip, ExposuresLeadFromTheBrightestToTheMedian) {
     EXPECT_EQ(range.count, 4u);
 }
 
-TEST(HdrFlip, SeesWhatIsBrighterThanWhite) {
+TEST(HdrFlip, HdrFlipDetectsDifferencesAboveWhite) {
     const Image truth = makeScene(8.0f);
     const Image picture = makeScene(4.0f);
     const FlipResult flip = computeHdrFlip(picture, truth);
@@ -227,7 +227,7 @@ TEST(HdrFlip, SeesWhatIsBrighterThanWhite) {
     EXPECT_EQ(computeFlip(whiten(picture), whiten(truth)).mean, 0.0) << "FLIP does not";
 }
 
-TEST(HdrFlip, DoesNotDependOnTheUnitOfLight) {
+TEST(HdrFlip, HdrFlipIsIndependentOfTheUnitOfLight) {
     const double one = computeHdrFlip(makeScene(3.0f), makeScene(4.0f)).mean;
     const double other = computeHdrFlip(makeScene(3.0f, 1024.0f), makeScene(4.0f, 1024.0f)).mean;
     EXPECT_GT(one, 0.001);

@@ -16,7 +16,7 @@
 namespace shutter::image {
 namespace {
 
-TEST(HalfFloat, WhatAHalfFloatHoldsStaysAndTheRestIsRoundedToTheNearest) {
+TEST(HalfFloat, RepresentableValuesAreExactAndOthersRoundToTheNearest) {
     for (const float held : {0.0f, 1.0f, -0.75f, 47.0f / 64.0f, 0x1p-14f, 0x1p-24f, 65504.0f})
         EXPECT_EQ(roundToHalf(held), held);
     // Half floats of [1/2, 1) are 2^-11 apart.
@@ -25,7 +25,7 @@ TEST(HalfFloat, WhatAHalfFloatHoldsStaysAndTheRestIsRoundedToTheNearest) {
     EXPECT_EQ(roundToHalf(-0.5f - 0.6f * 0x1p-11f), -0.5f - 0x1p-11f);
 }
 
-TEST(HalfFloat, BeyondTheGreatestIsInfinityAndNaNStaysNaN) {
+TEST(HalfFloat, OverflowIsInfinityAndNaNStaysNaN) {
     EXPECT_EQ(roundToHalf(65519.0f), 65504.0f);
     EXPECT_EQ(roundToHalf(65520.0f), std::numeric_limits<float>::infinity());
     EXPECT_EQ(roundToHalf(-1e9f), -std::numeric_limits<float>::infinity());
@@ -51,7 +51,7 @@ void expectBytes(const std::array<float, 3>& color, const std::array<int, 3>& by
         EXPECT_NEAR(color[c] * 255.0f, float(bytes[c]), within) << c;
 }
 
-TEST(Magma, GoesFromBlackToPaleYellowByThePublishedColours) {
+TEST(Magma, ColoursGoFromBlackToPaleYellowAsPublished) {
     // matplotlib's magma at 0, 64, 128, 191 and 255 of 255.
     expectBytes(colorOf(0.0f), {0, 0, 4}, 0.01f);
     expectBytes(colorOf(64.0f / 255.0f), {81, 18, 124}, 3.0f);
@@ -70,7 +70,7 @@ TEST(Magma, GetsBrighterAllTheWay) {
     }
 }
 
-TEST(Magma, WhatIsOutsideTheRangeIsClampedAndNanIsTheWorst) {
+TEST(Magma, ValuesOutsideTheRangeAreClampedAndNanIsTheWorst) {
     EXPECT_EQ(colorOf(-3.0f), colorOf(0.0f));
     EXPECT_EQ(colorOf(7.0f), colorOf(1.0f));
     EXPECT_EQ(colorOf(std::numeric_limits<float>::infinity()), colorOf(1.0f));
@@ -115,7 +115,7 @@ TEST(Channels, AColourIsFoundByNamesInAnyOrder) {
         << "the layer without a name comes first, and another's alpha is not its own";
 }
 
-TEST(Channels, WithoutNamesTheirNumberSaysWhatTheyAre) {
+TEST(Channels, UnnamedChannelsAreIdentifiedByTheirNumber) {
     EXPECT_EQ(colorOf(Image(1, 1, 1)), "0");
     EXPECT_EQ(colorOf(Image(1, 1, 2)), "0/1");
     EXPECT_EQ(colorOf(Image(1, 1, 3)), "0,1,2");
@@ -136,7 +136,7 @@ TEST(Channels, MotionDepthAndPartsOfAColourAreNone) {
         EXPECT_EQ(colorOf(makeNamed(names)), "-") << names.front();
 }
 
-TEST(Channels, ArePickedWithTheirNames) {
+TEST(Channels, ChannelsArePickedWithTheirNames) {
     const Image picked = pickChannels(makeNamed({"A", "B", "C"}), std::array<uint32_t, 2>{2, 0});
     EXPECT_EQ(picked.channelNames, (std::vector<std::string>{"C", "A"}));
     EXPECT_EQ(picked.pixels, (std::vector<float>{2, 0, 5, 3}));
@@ -164,7 +164,7 @@ float filterDirectly(const Plane& plane, const Kernel& kernel, int x, int y, int
     return sum;
 }
 
-TEST(Convolution, FollowsTheDefinitionOnPicturesSmallerAndLargerThanTheKernel) {
+TEST(Convolution, ConvolutionFollowsTheDefinitionForAllPictureSizes) {
     const Kernel kernel{0.5f, -1.0f, 3.0f, 2.0f, 0.25f};
     for (const uint32_t width : {1u, 2u, 5u, 13u})
         for (const uint32_t height : {1u, 3u, 9u}) {
@@ -188,7 +188,7 @@ TEST(Convolution, ANanReachesTheKernelsRadius) {
         EXPECT_EQ(std::isnan(filtered.values[x]), x >= 3 && x <= 5) << x;
 }
 
-TEST(Convolution, NothingFilteredIsNothing) {
+TEST(Convolution, AnEmptyPictureStaysEmpty) {
     EXPECT_TRUE(filterAlongX(Plane(0, 4), {1.0f}).values.empty());
     EXPECT_TRUE(filterAlongY(Plane(4, 0), {1.0f}).values.empty());
 }

@@ -141,7 +141,7 @@ TEST(Ssim, ConstantsLeaveTheLuminanceTermAlone) {
     }
 }
 
-TEST(Ssim, FollowsTheDefinitionOnEverySizeAroundTheWindow) {
+TEST(Ssim, SsimFollowsTheDefinitionForSizesAroundTheWindow) {
     for (const auto& [width, height] :
          {std::array{1u, 1u}, {5u, 5u}, {11u, 11u}, {13u, 5u}, {4u, 25u}, {33u, 27u}}) {
         for (const uint32_t channels : {1u, 3u, 4u}) {
@@ -190,7 +190,7 @@ TEST(StoredValues, ThePeakIsTheReferencesLargestFiniteMagnitudeAndOneAtLeast) {
     EXPECT_EQ(findPeak({}), 1.0);
 }
 
-TEST(StoredValues, InTheUnitRangeHaveTheMetricsOfDisplayedOnes) {
+TEST(StoredValues, StoredValuesInTheUnitRangeHaveTheMetricsOfDisplayedOnes) {
     const Image a = makeNoise(20, 17, 3, 1);
     const Image b = makeNoise(20, 17, 3, 2);
     EXPECT_EQ(computeStoredPsnr(a, b), computePsnr(a, b));
@@ -199,7 +199,7 @@ TEST(StoredValues, InTheUnitRangeHaveTheMetricsOfDisplayedOnes) {
     EXPECT_EQ(computeStoredSsim(grey, grey, false), 1.0);
 }
 
-TEST(StoredValues, ScaleWithThePeak) {
+TEST(StoredValues, StoredValuesScaleWithThePeak) {
     const auto scale = [](Image image, float factor) {
         for (float& value : image.pixels)
             value *= factor;
@@ -216,7 +216,7 @@ TEST(StoredValues, ScaleWithThePeak) {
     );
 }
 
-TEST(StoredValues, AreNotClamped) {
+TEST(StoredValues, StoredValuesAreNotClamped) {
     EXPECT_NEAR(
         computeStoredPsnr(makeConstant(4, 4, 2, 5.0f), makeConstant(4, 4, 2, 50.0f)),
         20.0 * std::log10(50.0 / 45.0),
@@ -251,7 +251,7 @@ TEST(StoredValues, InfinityIsNoDifferenceToItselfAndNanIsOneOfThePeak) {
     }
 }
 
-TEST(MaxDifference, IsTheLargestOverAllChannelsOfAllPixels) {
+TEST(MaxDifference, MaxDifferenceIsOverAllChannelsOfAllPixels) {
     const Image a = makeConstant(9, 4, 3, 0.5f);
     Image b = a;
     EXPECT_EQ(computeMaxDifference(a, b), 0.0);
@@ -286,7 +286,7 @@ Image disturb(const Image& image) {
 }
 
 /// By ffmpeg 5.1.9's filter psnr, formats gray and gbrp, of the pictures in files of eight bits.
-TEST(Psnr, AgreesWithFfmpeg) {
+TEST(Psnr, PsnrAgreesWithFfmpeg) {
     const Image grey = makeNoise(64, 48, 1, 2);
     EXPECT_NEAR(computePsnr(grey, disturb(grey)), 22.657677, 1e-6);
     EXPECT_NEAR(computePsnr(makeNoise(64, 48, 3, 3), makeNoise(64, 48, 3, 4)), 7.777942, 1e-6);
@@ -295,7 +295,7 @@ TEST(Psnr, AgreesWithFfmpeg) {
 /// Wang 2004 by scikit-image 0.19.3 over Rec. 709 luminance of the pictures in files of eight bits,
 /// mean over whole windows: structural_similarity(gaussian_weights=True, sigma=1.5,
 /// use_sample_covariance=False, data_range=1.0, full=True)[1][5:-5, 5:-5].mean().
-TEST(Ssim, AgreesWithScikitImage) {
+TEST(Ssim, SsimAgreesWithScikitImage) {
     const Image grey = makeNoise(64, 48, 1, 5);
     EXPECT_NEAR(computeSsim(grey, disturb(grey)), 0.971803785370, 1e-8);
     EXPECT_NEAR(computeSsim(grey, makeNoise(64, 48, 1, 6)), 0.004690495913, 1e-8);

@@ -66,7 +66,7 @@ TEST(FileBytes, AWriteThatFailsNamesTheFileAndLeavesTheOldOne) {
     EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
-TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {
+TEST(ContentHash, HashesHaveThirtyTwoDigitsAndChangeWithEachByte) {
     std::set<std::string> seen;
     const std::string base(200, 'a');
     for (size_t i = 0; i <= base.size(); ++i) {
@@ -82,7 +82,7 @@ TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {
     EXPECT_NE(computeContentHash(""), computeContentHash(std::string(1, '\0')));
 }
 
-TEST(ContentHash, OfAFileIsThatOfItsBytes) {
+TEST(ContentHash, TheHashOfAFileIsThatOfItsBytes) {
     const test::TempFolder folder;
     const std::string bytes("x\0y", 3);
     const auto hash = computeFileHash(folder.write("a.bin", bytes));
@@ -119,7 +119,7 @@ TEST(DataUri, MediaTypesAndParametersAreRead) {
     EXPECT_EQ(decodeText("data:;name=a%20b;base64,Zg%3D%3D"), "f");
 }
 
-TEST(DataUri, WhatIsNoMediaTypeOrParameterIsRefused) {
+TEST(DataUri, InvalidMediaTypesAndParametersAreRefused) {
     for (const char* header :
          {";",
           ";;base64",
@@ -148,7 +148,7 @@ TEST(DataUri, PaddingThatFillsNoGroupIsRefused) {
     EXPECT_EQ(decodeText("data:;base64,Zh=="), "refused") << "bits after the last byte";
 }
 
-TEST(DataUri, MalformedOnesAreRefused) {
+TEST(DataUri, MalformedDataUrisAreRefused) {
     EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
     EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
     EXPECT_EQ(decodeText("data:;base64,Zm9vY"), "refused") << "one digit too many";
@@ -192,7 +192,7 @@ TEST(ResolveUri, StepsThatStayInTheFolderAreResolvedInTheText) {
 
 class RefusedUri : public testing::TestWithParam<const char*> {};
 
-TEST_P(RefusedUri, IsAnError) {
+TEST_P(RefusedUri, AnUnsafeUriIsAnError) {
     const TempFolder folder;
     EXPECT_FALSE(resolveUri(folder.path(), GetParam()));
 }
@@ -255,7 +255,7 @@ TEST(ResolveUri, PathsThatLeaveTheFolderAreTakenFromThoseWhoMayAndSchemesFromNob
         EXPECT_FALSE(resolve(uri)) << uri;
 }
 
-TEST(LiesInside, FollowsLinksAndSteps) {
+TEST(LiesInside, LinksAndStepsAreFollowed) {
     const TempFolder outside;
     const TempFolder folder;
     folder.write("sub/a.bin", "x");
@@ -324,7 +324,7 @@ ProcessResult shell(const std::string& script, const std::filesystem::path& fold
     return std::move(run).value();
 }
 
-TEST(Process, GivesBackBothStreamsAndTheExitStatus) {
+TEST(Process, BothStreamsAndTheExitStatusAreReturned) {
     const ProcessResult result = shell("echo out; echo err >&2; cat; exit 7");
     EXPECT_EQ(result.output, "out\n") << "nothing is on its stdin";
     EXPECT_EQ(result.errors, "err\n");
@@ -332,7 +332,7 @@ TEST(Process, GivesBackBothStreamsAndTheExitStatus) {
     EXPECT_EQ(shell("kill -9 $$").exitStatus, 137);
 }
 
-TEST(Process, RunsWhereItIsTold) {
+TEST(Process, AProcessRunsInTheGivenFolder) {
     const TempFolder folder;
     EXPECT_EQ(
         shell("pwd -P", folder.path()).output,
@@ -340,7 +340,7 @@ TEST(Process, RunsWhereItIsTold) {
     );
 }
 
-TEST(Process, MoreThanAPipeHoldsIsReadAndKeptInBounds) {
+TEST(Process, OutputBeyondAPipesSizeIsReadWithinBounds) {
     const ProcessResult result =
         shell("head -c 3000000 /dev/zero >&2; echo last >&2; head -c 3000000 /dev/zero");
     EXPECT_EQ(result.output.size(), size_t{1} << 20);
@@ -362,7 +362,7 @@ TEST(Process, AProgramThatIsNotThereIsNamed) {
     EXPECT_TRUE(findProgram("sh").has_value());
 }
 
-TEST(Video, WhatIsNoFfmpegIsRefused) {
+TEST(Video, AProgramOtherThanFfmpegIsRefused) {
     for (const char* program : {"/bin/true", "/bin/false", "no/such/ffmpeg"}) {
         const auto encoder = findVideoEncoder(program);
         ASSERT_FALSE(encoder.ok()) << program;

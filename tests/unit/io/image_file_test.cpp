@@ -514,11 +514,11 @@ TEST(ImageFile, PixelsOutsideTheDisplayWindowAreCroppedAway) {
         for (uint32_t c = 0; c < 3; ++c)
             EXPECT_EQ(inner.image.at(x, 0, c), whole.at(x + 1, 2, c));
     EXPECT_EQ(crop({3, 3, 9, 9}).data, (PixelWindow{3, 3, 1, 1}));
-    EXPECT_TRUE(crop({4, 0, 9, 9}).image.pixels.empty()) << "beside it";
+    EXPECT_TRUE(crop({4, 0, 9, 9}).image.pixels.empty()) << "next to it";
     EXPECT_TRUE(crop({-9, -9, -1, 9}).image.pixels.empty());
 }
 
-TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {
+TEST(ImageFile, ImagesAreReadByContentInKnownFormatsOnly) {
     const TempFolder folder;
     const fs::path exr = folder.path() / "a.exr";
     ASSERT_TRUE(writeImage(exr, makeRamp(2, 2, 3)));

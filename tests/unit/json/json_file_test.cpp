@@ -72,7 +72,7 @@ std::string nest(size_t levels) {
 
 } // namespace
 
-TEST(JsonFile, ReadsEveryKindOfField) {
+TEST(JsonFile, EveryKindOfFieldIsRead) {
     const auto film = parseFilm(R"({"name": "pan \u00e4", "fps": 29.97, "count": 3.0, "loop": true,
         "ease": "inOut", "keys": [{"time": 0}, {"time": -1.5e1}], "place": [1, 2, 3]})");
     ASSERT_TRUE(film.ok()) << film.error().message;
@@ -149,7 +149,7 @@ TEST(JsonFile, TheFirstMistakeOfManyIsTheError) {
     );
 }
 
-TEST(JsonFile, WhatIsNoJsonIsRefusedWithItsLine) {
+TEST(JsonFile, InvalidJsonIsRefusedWithItsLine) {
     const std::pair<std::string, const char*> cases[] = {
         {"", "film.json: the file is empty"},
         {" \n\t\r\n", "film.json: the file is empty"},
@@ -218,7 +218,7 @@ TEST(JsonFile, TooManyValuesAndBytesAreRefused) {
     EXPECT_EQ(big.error().message, path.string() + ": the file is over 5 bytes");
 }
 
-TEST(JsonFile, WhatIsWrittenReadsBackTheSame) {
+TEST(JsonFile, WrittenJsonIsReadBackUnchanged) {
     const TempFolder folder;
     const auto path = folder.path() / "film.json";
     const double fps = 1.0 / 3.0;
@@ -277,7 +277,7 @@ TEST(JsonFile, EveryFiniteDoubleAndFloatReadsBackToTheLastBit) {
         ) << written[i];
 }
 
-TEST(JsonFile, IsWrittenOneFieldPerLineInTheirOrder) {
+TEST(JsonFile, JsonIsWrittenOneFieldPerLineInOrder) {
     nlohmann::ordered_json content;
     content["b"] = {1.0, "x"};
     content["a"] = nlohmann::ordered_json::object();
@@ -289,7 +289,7 @@ TEST(JsonFile, IsWrittenOneFieldPerLineInTheirOrder) {
     EXPECT_EQ(formatJsonLine(content), "{\"b\":[1.0,\"x\"],\"a\":{},\"c\":-0.0}\n");
 }
 
-TEST(JsonFile, BytesThatAreNoUtf8AreReplacedInWhatIsWritten) {
+TEST(JsonFile, InvalidUtf8IsReplacedOnWriting) {
     EXPECT_EQ(formatJson("a\xFF"), "\"a\uFFFD\"\n");
 }
 

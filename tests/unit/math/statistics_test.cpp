@@ -31,7 +31,7 @@ TEST(Fit, APowerLawIsFoundExactly) {
     EXPECT_EQ(fit->to, 1e6);
 }
 
-TEST(Fit, WhatHasNoLogarithmOrNoSpreadHasNoFit) {
+TEST(Fit, PointsWithoutLogarithmOrSpreadHaveNoFit) {
     using Points = std::vector<CurvePoint>;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Points& points :
@@ -74,7 +74,7 @@ TEST(LineFit, AConstantIsExplained) {
     EXPECT_EQ(fit->r2, 1.0);
 }
 
-TEST(LineFit, WhatIsNotFiniteOrHasNoSpreadHasNoFit) {
+TEST(LineFit, NonFinitePointsOrPointsWithoutSpreadHaveNoFit) {
     using Points = std::vector<CurvePoint>;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
@@ -87,14 +87,14 @@ TEST(LineFit, WhatIsNotFiniteOrHasNoSpreadHasNoFit) {
         EXPECT_FALSE(fitLine(points));
 }
 
-TEST(Quartiles, OneValueIsAllThree) {
+TEST(Quartiles, ASingleValueIsAllThreeQuartiles) {
     const Quartiles one = computeQuartiles({4.0});
     EXPECT_EQ(one.median, 4.0);
     EXPECT_EQ(one.q1, 4.0);
     EXPECT_EQ(one.q3, 4.0);
 }
 
-TEST(Quartiles, AreThoseOfNumpyWhateverTheOrder) {
+TEST(Quartiles, QuartilesAreThoseOfNumpyInAnyOrder) {
     // numpy.percentile([1, 2, 4, 8, 16, 32], [25, 50, 75])
     const Quartiles six = computeQuartiles({32.0, 1.0, 16.0, 2.0, 8.0, 4.0});
     EXPECT_DOUBLE_EQ(six.q1, 2.5);
@@ -167,7 +167,7 @@ TEST(BlueNoise, ASeedMakesOneMask) {
     EXPECT_EQ(hash, 9982874529342676899ull);
 }
 
-TEST(BlueNoise, HasHardlyAnyLowFrequencies) {
+TEST(BlueNoise, MasksHaveFewLowFrequencies) {
     const Ranks ranks = makeBlueNoise(kSide, kSeed);
     EXPECT_LT(measureLowPower(toValues(ranks), 8), 0.03);
     Ranks white(kSide * kSide);
@@ -176,14 +176,14 @@ TEST(BlueNoise, HasHardlyAnyLowFrequencies) {
     EXPECT_GT(measureLowPower(toValues(white), 8), 0.7);
 }
 
-TEST(BlueNoise, SoDoFewSetsOfItHoweverItIsTurned) {
+TEST(BlueNoise, SmallSetsOfAMaskHaveFewLowFrequenciesInAnyRotation) {
     const Ranks ranks = makeBlueNoise(kSide, kSeed);
     for (const double turn : {0.0, 0.13, 0.5, 0.618, 0.9})
         EXPECT_LT(measureLowPower(toSets(ranks, turn, 5), 8), 0.06) << turn;
 }
 
 // Points across the border are as evenly spread as others: the same mask with another origin.
-TEST(BlueNoise, Tiles) {
+TEST(BlueNoise, MasksTile) {
     const Ranks ranks = makeBlueNoise(kSide, kSeed);
     const auto closest = [&](bool acrossBorder) {
         double sum = 0.0;

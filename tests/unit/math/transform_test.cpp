@@ -27,7 +27,7 @@ dquat quarterTurnZ() {
     return glm::angleAxis(kPi / 2.0, dvec3(0.0, 0.0, 1.0));
 }
 
-TEST(RemoveScale, LeavesPlaceAndDirections) {
+TEST(RemoveScale, PlaceAndDirectionsArePreserved) {
     Transform transform;
     transform.translation = {1.0, -2.0, 3.0};
     transform.rotation = glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0)));
@@ -38,7 +38,7 @@ TEST(RemoveScale, LeavesPlaceAndDirections) {
         expectNear(dvec3(found[column]), dvec3(rigid[column]));
 }
 
-TEST(RemoveScale, WhatHasNoDirectionsKeepsItsPlace) {
+TEST(RemoveScale, AMatrixWithoutDirectionsKeepsItsPlace) {
     dmat4 flat(1.0);
     flat[0][0] = 0.0;
     flat[3] = dvec4(1.0, 2.0, 3.0, 1.0);
@@ -86,7 +86,7 @@ TEST(RemoveScale, AxesThatAreSquareUpToRoundingAreOnlyMadeOneLong) {
         EXPECT_EQ(dvec3(found[column]), dvec3(matrix[column]) / glm::length(dvec3(matrix[column])));
 }
 
-TEST(RemoveScale, TwoDirectionsThatAreLeftTellTheThird) {
+TEST(RemoveScale, TwoRemainingDirectionsDetermineTheThird) {
     const dmat3 turn = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0))));
     for (int lost = 0; lost < 3; ++lost) {
         dmat3 axes = turn * 1e-200;
@@ -131,13 +131,13 @@ TEST(Transform, AZeroScaleFlattensAndStaysFinite) {
     EXPECT_EQ(applyTo(matrix, {5.0, 6.0, 7.0}), dvec3(1.0, 2.0, 3.0));
 }
 
-TEST(IntegrateRotation, IsExactlyTheIdentityAtZeroVelocityAndAtZeroSeconds) {
+TEST(IntegrateRotation, RotationIsExactlyTheIdentityAtZeroVelocityOrZeroSeconds) {
     const dquat identity(1.0, 0.0, 0.0, 0.0);
     EXPECT_EQ(integrateRotation(dvec3(0.0), 123.0), identity);
     EXPECT_EQ(integrateRotation({0.0, 5.0, 0.0}, 0.0), identity);
 }
 
-TEST(IntegrateRotation, TurnsCounterClockwiseAboutTheAxisOfTheVelocity) {
+TEST(IntegrateRotation, RotationIsCounterClockwiseAboutTheVelocitysAxis) {
     expectNear(
         integrateRotation({0.0, 0.0, kPi / 2.0}, 1.0) * dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}
     );
@@ -163,7 +163,7 @@ TEST(IntegrateRotation, AVelocityThatIsNoNumberDoesNotTurn) {
     EXPECT_EQ(integrateRotation({nan, 0.0, 0.0}, 1.0), dquat(1.0, 0.0, 0.0, 0.0));
 }
 
-TEST(IsFinite, FindsASingleBadElementAnywhere) {
+TEST(IsFinite, ASingleBadElementIsFoundAnywhere) {
     EXPECT_TRUE(isFinite(dmat4(1.0)));
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
@@ -255,11 +255,11 @@ void expectRigidBetween(const dmat4& own, double tolerance) {
         expectNear(interpolate(open, close, share), poseAt(share, own), tolerance);
 }
 
-TEST(Pose, ATurningBodyIsWhereItsWayLeads) {
+TEST(Pose, ATurningBodyIsInterpolatedAlongItsPath) {
     expectRigidBetween(dmat4(1.0), 1e-9);
 }
 
-TEST(Pose, SoItIsWithAnyScaleShearOrMirroring) {
+TEST(Pose, ATurningBodyWithAnyScaleShearOrMirroringIsInterpolatedExactly) {
     dmat4 own(1.0);
     own[0] = {0.001, 0.0, 0.0, 0.0};
     own[1] = {0.3, 70.0, 0.0, 0.0};
@@ -270,14 +270,14 @@ TEST(Pose, SoItIsWithAnyScaleShearOrMirroring) {
     EXPECT_TRUE(takeApart(dmat4(1.0e-100 * dmat3(own))).isRegular);
 }
 
-TEST(Pose, AtItsEndsItHasTheirBits) {
+TEST(Pose, InterpolationHasTheBitsOfItsEnds) {
     const dmat4 from = poseAt(0.1, dmat4(1.0));
     const dmat4 to = poseAt(0.7, dmat4(1.0));
     EXPECT_EQ(interpolate(takeApart(from), takeApart(to), 0.0), from);
     EXPECT_EQ(interpolate(takeApart(from), takeApart(to), 1.0), to);
 }
 
-TEST(Pose, WhatHasNoRotationIsMixed) {
+TEST(Pose, MatricesWithoutRotationAreMixed) {
     const dmat4 from = poseAt(0.0, dmat4(1.0));
     dmat4 flat = from;
     flat[2] = dvec4(0.0);
@@ -289,7 +289,7 @@ TEST(Pose, WhatHasNoRotationIsMixed) {
     expectNear(half, 0.5 * (from + mirrored), 1e-9);
 }
 
-TEST(Pose, WhatIsNotFiniteIsLeftWhole) {
+TEST(Pose, NonFiniteMatricesAreNotDecomposed) {
     dmat4 broken(1.0);
     broken[1][1] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(takeApart(broken).isRegular);
@@ -298,7 +298,7 @@ TEST(Pose, WhatIsNotFiniteIsLeftWhole) {
     EXPECT_FALSE(takeApart(dmat4(0.0)).isRegular);
 }
 
-TEST(Bounds, AreEmptyUntilAPointIsAdded) {
+TEST(Bounds, BoundsAreEmptyUntilAPointIsAdded) {
     Bounds bounds;
     EXPECT_TRUE(bounds.isEmpty());
     bounds.add(dvec3(1.0, 2.0, 3.0));
@@ -307,7 +307,7 @@ TEST(Bounds, AreEmptyUntilAPointIsAdded) {
     EXPECT_EQ(bounds.size(), dvec3(0.0));
 }
 
-TEST(Bounds, GrowToHoldEveryPoint) {
+TEST(Bounds, BoundsGrowToContainEveryPoint) {
     Bounds bounds;
     bounds.add(dvec3(1.0, -2.0, 3.0));
     bounds.add(dvec3(-1.0, 4.0, 3.5));

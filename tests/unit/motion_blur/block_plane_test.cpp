@@ -76,7 +76,7 @@ double alongAt(const BlockPlane& plane, const dvec2& place) {
 
 class BlockPlaneMap : public testing::TestWithParam<bool> {};
 
-TEST_P(BlockPlaneMap, LooksWhereThePlaneIsSeen) {
+TEST_P(BlockPlaneMap, TheMapAgreesWithTheProjectionOfThePlane) {
     const PlanePicture picture(GetParam(), makeMove());
     const BlockPlane plane = makePlane(GetParam());
     const PlaneMap map = picture.map(plane, kCentre, kTarget);
@@ -90,7 +90,7 @@ TEST_P(BlockPlaneMap, LooksWhereThePlaneIsSeen) {
     }
 }
 
-TEST_P(BlockPlaneMap, SaysHowMuchADeviationFromThePlaneMovesThePlace) {
+TEST_P(BlockPlaneMap, TheMapBoundsTheErrorOfADeviationFromThePlane) {
     const PlanePicture picture(GetParam(), makeMove());
     BlockPlane plane = makePlane(GetParam());
     const PlaneMap map = picture.map(plane, kCentre, kTarget);
@@ -102,7 +102,7 @@ TEST_P(BlockPlaneMap, SaysHowMuchADeviationFromThePlaneMovesThePlace) {
     EXPECT_NEAR(map.pxPerAlong * step, way, 0.1f * way);
 }
 
-TEST_P(BlockPlaneMap, NothingIsAffineWithoutANumber) {
+TEST_P(BlockPlaneMap, ANonFiniteMapIsNotAffine) {
     const PlanePicture picture(GetParam(), makeMove());
     for (const float bad :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
@@ -131,7 +131,7 @@ TEST(BlockPlane, DepthMakesNoDifferenceToACameraThatOnlyTurns) {
     EXPECT_LT(glm::distance(ofSky.place, map.place), 1e-3f);
 }
 
-TEST(BlockPlane, WhatEndsBehindTheCameraIsNoMap) {
+TEST(BlockPlane, APlaneBehindTheCameraHasNoMap) {
     // The surface is 4 m away, and the camera moves 5.
     const PlanePicture picture(true, glm::translate(dmat4(1.0), dvec3(0, 0, 5)));
     EXPECT_FALSE(picture.map(makePlane(true), kCentre, kTarget).isAffine);

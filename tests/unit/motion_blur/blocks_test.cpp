@@ -82,7 +82,7 @@ TEST(BlockClass, ASmearReachesBlocksWithinItsLength) {
         return reachesBlock({x, y}, {x + 8, y + 8}, {40, 40}, {80, 80}, reach);
     };
     EXPECT_TRUE(reaches(48, 48, 0.5f)) << "inside";
-    EXPECT_TRUE(reaches(80, 40, 0.0f)) << "beside";
+    EXPECT_TRUE(reaches(80, 40, 0.0f)) << "adjacent";
     EXPECT_TRUE(reaches(90, 40, 9.5f));
     EXPECT_FALSE(reaches(90, 40, 8.5f));
     EXPECT_TRUE(reaches(20, 40, 11.5f)) << "the block ends at 28";
@@ -138,7 +138,7 @@ TEST(ShownMotion, MotionEndsBeyondTheDepthLimit) {
     EXPECT_EQ(shownMotion({3, 4}, kNan, kInfinity), vec2(0));
 }
 
-TEST(ShownMotion, WhatIsNotFiniteIsNone) {
+TEST(ShownMotion, NonFiniteMotionIsShownAsNone) {
     for (const float bad : {kNan, kInfinity, -kInfinity, 3e38f}) {
         EXPECT_EQ(shownMotion({bad, 0}, 1.0f, kInfinity), vec2(0));
         EXPECT_EQ(limitMotion({0, bad, 1}, 40.0f, kInfinity), vec2(0));
@@ -148,7 +148,7 @@ TEST(ShownMotion, WhatIsNotFiniteIsNone) {
     EXPECT_EQ(limitMotion({80, 0, 2}, 40.0f, 1.0f), vec2(0));
 }
 
-TEST(UniformWeight, IsTheFullWeightOfTwoThatMoveAlikeAtOneDepth) {
+TEST(UniformWeight, TheUniformWeightIsThatOfEqualMotionAtOneDepth) {
     for (const float speed : {0.5f, 3.0f, 40.0f})
         for (int i = 0; i <= 50; ++i) {
             const float distance = speed * 1.2f * float(i) / 50.0f;
@@ -192,7 +192,7 @@ TEST(MaskBits, TheFirstMaskedPixelOfAQuadLeadsIt) {
     });
 }
 
-TEST(MaskBits, WithoutQuadsAllMaskedPixelsAreListed) {
+TEST(MaskBits, AllMaskedPixelsAreListedWithoutQuads) {
     forBlocks([](uvec2 bits) { ASSERT_EQ(listedBits(bits, false), bits); });
 }
 
@@ -280,7 +280,7 @@ TEST(RayShare, AllBlocksTogetherTraceTheShare) {
         EXPECT_NEAR(traceEverything(share), share, 0.01) << share;
 }
 
-TEST(RayShare, OneTracesEveryPixelAndZeroNone) {
+TEST(RayShare, AShareOfOneTracesEveryPixelAndZeroNone) {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             ASSERT_EQ(chooseTracing({float(x), float(y)}, 1.0f), kTracePixels);
@@ -304,7 +304,7 @@ TEST(Denoise, TheDeviationOfAMeanIsThatOfItsValues) {
     EXPECT_EQ(deviationOfMean(20.0f, 100.0f, 4), 0.0f); // all 5
 }
 
-TEST(Denoise, TooFewRaysTellNoDeviation) {
+TEST(Denoise, TooFewRaysHaveNoDeviation) {
     EXPECT_EQ(deviationOfMean(0.0f, 0.0f, 0), 0.0f);
     EXPECT_EQ(deviationOfMean(1.0f, 1.0f, 1), 0.0f);
     EXPECT_EQ(deviationOfMean(6.0f, 20.0f, 3), 0.0f);

@@ -83,11 +83,11 @@ Drive drive(
 
 } // namespace
 
-TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithTheCheapestBlur) {
+TEST(Budget, RungsStartWithTheRequestedSettingsAndEndWithTheCheapestBlur) {
     for (const Method* method : listMethods())
         for (const uint32_t samples : {1u, 4u, 15u, 256u}) {
             const auto levels = makeLevels(settingsOf(method, samples));
-            EXPECT_TRUE(levels.front().gaveUp.empty());
+            EXPECT_TRUE(levels.front().droppedQuality.empty());
             EXPECT_EQ(levels.front().settings.sampleCount, samples);
             EXPECT_EQ(levels.front().settings.method, method);
             const MotionBlurSettings& last = levels.back().settings;
@@ -97,8 +97,9 @@ TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithTheCheapestBlur) {
             std::set<std::string> said;
             for (size_t i = 1; i < levels.size(); ++i) {
                 EXPECT_LT(levels[i].cost, levels[i - 1].cost) << method->name << " level " << i;
-                EXPECT_TRUE(validate(levels[i].settings).ok()) << levels[i].gaveUp;
-                EXPECT_TRUE(said.insert(levels[i].gaveUp).second) << levels[i].gaveUp;
+                EXPECT_TRUE(validate(levels[i].settings).ok()) << levels[i].droppedQuality;
+                EXPECT_TRUE(said.insert(levels[i].droppedQuality).second)
+                    << levels[i].droppedQuality;
                 EXPECT_LE(levels[i].settings.rayShare, levels[i - 1].settings.rayShare);
             }
         }
@@ -106,24 +107,25 @@ TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithTheCheapestBlur) {
 
 TEST(Budget, TheLadderSaysWhatItGivesUp) {
     const auto levels = makeLevels(settingsOf(&getMethod("hybrid")));
-    EXPECT_EQ(levels[1].gaveUp, "half of the resolution along long uniform motion");
+    EXPECT_EQ(levels[1].droppedQuality, "half of the resolution along long uniform motion");
     EXPECT_EQ(
-        levels[3].gaveUp, "half of the resolution along long uniform motion, 50 % of the rays"
+        levels[3].droppedQuality,
+        "half of the resolution along long uniform motion, 50 % of the rays"
     );
     EXPECT_EQ(
-        levels[levels.size() - 2].gaveUp,
+        levels[levels.size() - 2].droppedQuality,
         "half of the resolution along long uniform motion, all rays, 11 of 15 samples"
     );
-    EXPECT_EQ(levels.back().gaveUp, "all but 4 samples along each pixel's own motion");
+    EXPECT_EQ(levels.back().droppedQuality, "all but 4 samples along each pixel's own motion");
 }
 
 TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
     const auto levels = makeLevels(settingsOf(&getMethod("denoised"), 4));
-    EXPECT_EQ(levels[1].gaveUp, "2 of 4 samples");
-    EXPECT_EQ(levels[2].gaveUp, "3 of 4 samples");
-    EXPECT_EQ(levels[3].gaveUp, "all rays");
+    EXPECT_EQ(levels[1].droppedQuality, "2 of 4 samples");
+    EXPECT_EQ(levels[2].droppedQuality, "3 of 4 samples");
+    EXPECT_EQ(levels[3].droppedQuality, "all rays");
     EXPECT_EQ(levels[3].settings.method, &getMethod("gather"));
-    EXPECT_EQ(levels[4].gaveUp, "all rays, 3 of 15 samples");
+    EXPECT_EQ(levels[4].droppedQuality, "all rays, 3 of 15 samples");
 }
 
 TEST(Budget, TheLookUpsLadderGoesFromFewInstantsToEachPixelsOwnMotion) {
@@ -132,36 +134,37 @@ TEST(Budget, TheLookUpsLadderGoesFromFewInstantsToEachPixelsOwnMotion) {
     for (size_t i = 0; i < 4; ++i)
         EXPECT_EQ(levels[i].settings.method, &getMethod("resolved")) << i;
     EXPECT_EQ(levels[3].settings.sampleCount, 6u);
-    EXPECT_EQ(levels[3].gaveUp, "9 of 15 samples");
+    EXPECT_EQ(levels[3].droppedQuality, "9 of 15 samples");
     EXPECT_EQ(levels[4].settings.method, &getMethod("own_velocity"));
     EXPECT_EQ(levels[4].settings.sampleCount, 8u);
-    EXPECT_EQ(levels[4].gaveUp, "the look of what comes over a pixel from beside it");
+    EXPECT_EQ(levels[4].droppedQuality, "surfaces that move over a pixel from outside");
 }
 
 TEST(Budget, TheSecondRasterIsGivenUpFirst) {
     MotionBlurSettings settings = settingsOf(&getMethod("resolved"));
     settings.secondRaster = true;
     const auto levels = makeLevels(settings);
-    EXPECT_EQ(levels[1].gaveUp, "the second raster");
+    EXPECT_EQ(levels[1].droppedQuality, "the second raster");
     EXPECT_FALSE(levels[1].settings.secondRaster);
-    EXPECT_EQ(levels[2].gaveUp, "the second raster, 3 of 15 samples");
+    EXPECT_EQ(levels[2].droppedQuality, "the second raster, 3 of 15 samples");
 }
 
-TEST(Budget, WithoutAUniformPathThereIsNoResolutionToGiveUp) {
+TEST(Budget, MethodsWithoutAUniformPathDoNotReduceResolution) {
     MotionBlurSettings settings = settingsOf(&getMethod("hybrid"));
     settings.uniformMotionPx = 0.0f;
     for (const BudgetLevel& level : makeLevels(settings))
-        EXPECT_EQ(level.gaveUp.find("resolution"), std::string::npos) << level.gaveUp;
+        EXPECT_EQ(level.droppedQuality.find("resolution"), std::string::npos)
+            << level.droppedQuality;
 }
 
-TEST(Budget, OnlyATimeAboveZeroIsABudget) {
+TEST(Budget, ABudgetRequiresATimeAboveZero) {
     EXPECT_TRUE(validate(BlurBudget{}).ok());
     EXPECT_TRUE(validate(BlurBudget{0.1}).ok());
     for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_FALSE(validate(BlurBudget{wrong}).ok()) << wrong;
 }
 
-TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
+TEST(Budget, AnUnlimitedBudgetNeverReducesQuality) {
     BudgetController controller({}, settingsOf(&getMethod("hybrid")));
     for (const double time : {1.0, 1e9, std::numeric_limits<double>::infinity(), 0.0})
         for (int i = 0; i < 50; ++i) {
@@ -188,7 +191,7 @@ TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
         }
 }
 
-TEST(Budget, NoiseDoesNotMakeItPump) {
+TEST(Budget, NoiseCausesNoOscillation) {
     for (uint32_t seed = 1; seed <= 5; ++seed)
         for (const double budget : {8.0, 15.0, 25.0, 38.0}) {
             BudgetController controller({budget}, settingsOf(&getMethod("hybrid")));
@@ -198,7 +201,7 @@ TEST(Budget, NoiseDoesNotMakeItPump) {
         }
 }
 
-TEST(Budget, OneSlowFrameIsAHiccup) {
+TEST(Budget, ASingleSlowFrameIsIgnored) {
     BudgetController controller({50.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {}, 20);
     controller.observe(0, 500.0);
@@ -229,7 +232,7 @@ TEST(Budget, TriesThatKeepFailingGrowRare) {
     EXPECT_LE(drive(controller, {1.0, 1.0, 25.0}, 3000).changes(0), 8u);
 }
 
-TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {
+TEST(Budget, QualityReturnsRungByRungWhenTheLoadDrops) {
     BudgetController controller({20.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {4.0, 3.0, 200.0}, 300);
     EXPECT_GT(controller.level(), 4u);
@@ -255,7 +258,7 @@ TEST(Budget, StepsUpThatFailedLongAgoDoNotHoldItBackForLong) {
     EXPECT_EQ(controller.level(), 0u);
 }
 
-TEST(Budget, WhatIsTheCheapestAlreadyHasNoCheaperRung) {
+TEST(Budget, TheCheapestSettingsHaveNoCheaperRung) {
     MotionBlurSettings settings = settingsOf(&getMethod("own_velocity"), 4);
     EXPECT_EQ(makeLevels(settings).size(), 1u);
     BudgetController controller({0.1}, settings);

@@ -149,7 +149,7 @@ ResponseTable risingResponse() {
     return table;
 }
 
-TEST(Taps, TheyFillTheExposureEvenlyInEveryPhase) {
+TEST(Taps, TapsFillTheExposureEvenlyInEveryPhase) {
     for (const float share : kShares)
         for (const uint count : {1u, 2u, 15u, 256u})
             for (uint i = 0; i < count; ++i) {
@@ -160,7 +160,7 @@ TEST(Taps, TheyFillTheExposureEvenlyInEveryPhase) {
             }
 }
 
-TEST(Taps, InACentredExposureTheInnerOnesAreThePapers) {
+TEST(Taps, TheInnerTapsOfACentredExposureAreThePapers) {
     // t = mix(-1, 1, (i + j + 1) / (S + 1)) of a half velocity, which is half the motion.
     for (const uint count : {1u, 15u, 35u})
         for (uint i = 0; i < count; ++i)
@@ -170,7 +170,7 @@ TEST(Taps, InACentredExposureTheInnerOnesAreThePapers) {
             }
 }
 
-TEST(Taps, AResponseHasThemAtTheTimesOfItsLight) {
+TEST(Taps, TapsFollowTheResponse) {
     const ResponseTable table = risingResponse();
     for (const float share : kShares)
         for (uint i = 0; i < 16; ++i) {
@@ -214,7 +214,7 @@ TEST(Taps, TheTileJitterStaysWithinAQuarterAndNeverGoesDiagonally) {
     }
 }
 
-TEST(Taps, WithoutJitterTheTileIsThePixelsOwn) {
+TEST(Taps, TheTileIsThePixelsOwnWithoutJitter) {
     for (uint pixel = 0; pixel < 100; ++pixel) {
         const vec2 centre(float(pixel) + 0.5f);
         EXPECT_EQ(
@@ -268,7 +268,7 @@ TEST(OwnVelocity, AStillOccluderCoversNothingButItself) {
     EXPECT_TRUE(couldCover(vec2(0.0f), vec2(0.0f), 0.5f));
 }
 
-TEST(OwnVelocity, InAOneSidedExposureTheSideCounts) {
+TEST(OwnVelocity, OwnVelocityFollowsTheSideOfAOneSidedExposure) {
     // Ends at the raster instant: only motion towards the offset has passed the pixel.
     EXPECT_TRUE(couldCover(vec2(8.0f, 0.0f), vec2(9.0f, 0.0f), 1.0f));
     EXPECT_FALSE(couldCover(vec2(8.0f, 0.0f), vec2(-9.0f, 0.0f), 1.0f));

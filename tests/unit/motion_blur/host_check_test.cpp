@@ -193,7 +193,7 @@ struct Shaking : CheckedWorld {
     }
 };
 
-TEST(HostCheck, SaysNothingOfWorldsThatMoveEvenlyStartStopOrShake) {
+TEST(HostCheck, ValidWorldsAreNotReported) {
     for (const Change change : {Change(nullptr), Change(leaveVectorsOut)}) {
         EXPECT_EQ(check(CheckedWorld(), change), "");
         EXPECT_EQ(check(Starting(), change), "");
@@ -225,7 +225,7 @@ std::string checkDeformedBy(math::vec4 (*change)(const math::vec4&)) {
     return all;
 }
 
-TEST(HostCheck, WhatDeformsMustGoWhereItsVectorsDo) {
+TEST(HostCheck, DeformedMotionMustAgreeWithVectors) {
     const auto contains = [](const std::string& said, const char* part) {
         return said.find(part) != std::string::npos;
     };
@@ -248,7 +248,7 @@ TEST(HostCheck, WhatDeformsMustGoWhereItsVectorsDo) {
     EXPECT_FALSE(contains(other, "would be")) << other;
 }
 
-TEST(HostCheck, AMoverBehindAWallIsInNobodysView) {
+TEST(HostCheck, AMoverBehindAWallIsNotCountedAsVisible) {
     const Change behind = [](CheckFacts& facts, const CheckedWorld&, double) {
         facts.rowCount = 3; // the picture does not show the last of them
         facts.movers.front() = {2, true, {160.0, 40.0}, 40.0, CheckFacts::kNone};
@@ -357,7 +357,7 @@ TEST(HostOverlay, APanelIsLeftOutWhereItsInputIsNotThere) {
     EXPECT_FALSE(has(shader::kPanelObjects));
 }
 
-TEST(HostOverlay, WhatStandsStillHasNoMotionOfItsOwn) {
+TEST(HostOverlay, StaticSurfacesHaveNoObjectMotion) {
     const dmat4 view = glm::rotate(dmat4(1.0), 0.02, dvec3(0.0, 1.0, 0.0));
     const dmat4 before = glm::translate(dmat4(1.0), dvec3(0.1, 0.0, 0.05));
     const HostInputs inputs = makeInputs(view, before);
@@ -384,7 +384,7 @@ TEST(HostOverlay, WhatStandsStillHasNoMotionOfItsOwn) {
     }
 }
 
-TEST(HostOverlay, CellsStandStillInTheWorldAndAreAMetreWide) {
+TEST(HostOverlay, CellsAreStaticInTheWorldAndAMetreWide) {
     // Far from the origin, where floats are coarse.
     const dvec3 away(1.0e6, -3.0e5, 2.0e6);
     const dmat4 first = glm::translate(dmat4(1.0), -away);
@@ -413,7 +413,7 @@ TEST(HostOverlay, CellsStandStillInTheWorldAndAreAMetreWide) {
     );
 }
 
-TEST(HostOverlay, WhatIsNoNumberIsMagenta) {
+TEST(HostOverlay, NonFiniteValuesAreMagenta) {
     EXPECT_EQ(shader::colorOfMotion({kNan, 0.0f}), shader::kPanelBroken);
     EXPECT_EQ(shader::colorOfMotion({0.0f, -1.0f / 0.0f}), shader::kPanelBroken);
     EXPECT_EQ(shader::colorOfDepth(kNan), shader::kPanelBroken);

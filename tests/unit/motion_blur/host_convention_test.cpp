@@ -139,7 +139,7 @@ TEST(HostConvention, TheSkyIsToldByItsValue) {
     EXPECT_EQ(shader::metresOfDepth(infinite, 0.0f), shader::kSkyDepth);
 }
 
-TEST(HostConvention, WhatIsNoDepthIsTheSky) {
+TEST(HostConvention, AnInvalidDepthIsTheSky) {
     const shader::PrepareTable table = makePrepareTable(makeConvention({"", forward()}), kPicture);
     for (const float value : {kNaN, kInfinity, -kInfinity, 3.0f})
         EXPECT_EQ(shader::metresOfDepth(table, value), shader::kSkyDepth) << value;
@@ -196,7 +196,7 @@ TEST(HostConvention, TheSkyMovesAsTheCameraTurns) {
     );
 }
 
-TEST(HostConvention, WhatComesFromBehindTheCameraMovesAFiniteWay) {
+TEST(HostConvention, PointsFromBehindTheCameraHaveFiniteMotion) {
     HostConvention convention =
         makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)});
     // The camera went back by 3 m: a point 2 m ahead of it now was 1 m behind it.
@@ -266,7 +266,7 @@ TEST(HostConvention, CameraAndObjectsHaveScalesOfTheirOwn) {
     }
 }
 
-TEST(HostConvention, WhatIsNoVectorIsNoMotion) {
+TEST(HostConvention, AnInvalidVectorIsNoMotion) {
     for (const bool hasCameras : {false, true}) {
         HostConvention convention = makeConvention({"", forward()});
         convention.cameras.areGiven = hasCameras;
@@ -395,14 +395,14 @@ TEST(PrepareWay, PassesThroughBothEndsAndThePixelItself) {
     }
 }
 
-TEST(PrepareWay, IsStraightWhereTheRasterIsAtAnEndOrNowhere) {
+TEST(PrepareWay, TheMotionIsStraightIfTheRasterIsAtAnEnd) {
     for (const float rasterTime : {0.0f, 0.05f, 0.95f, 1.0f, kNaN, kInfinity, -kInfinity, 1e30f})
         EXPECT_EQ(
             shader::unpackWay(shader::prepareWay({-8, 0, 2, 1}, rasterTime)).bend, math::vec2(0.0f)
         ) << rasterTime;
 }
 
-TEST(PrepareWay, WhatIsNoNumberIsNoWay) {
+TEST(PrepareWay, NonFiniteMotionIsMarked) {
     for (int channel = 0; channel < 4; ++channel)
         for (const float bad : {kNaN, kInfinity, -kInfinity}) {
             math::vec4 ends(1.0f);

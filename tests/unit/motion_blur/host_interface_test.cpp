@@ -84,26 +84,26 @@ TEST(HostSentences, NameNoFieldThatThePublicHeaderLacks) {
             continue;
         for (const std::string& text : listTexts(file.path())) {
             // A field is named where the sentence is made, and a plural.
-            const std::string told = std::regex_replace(
+            const std::string reported = std::regex_replace(
                 std::regex_replace(text, std::regex("([A-Za-z])\\{[^}]*\\}"), "$1"),
                 std::regex("\\{[^}]*\\}"),
                 "N"
             );
             ++count;
-            EXPECT_EQ(told.find("convention."), std::string::npos) << name << ": " << told;
-            EXPECT_EQ(told.find("scales."), std::string::npos) << name << ": " << told;
-            EXPECT_FALSE(std::regex_search(told, std::regex("\\bmotion\\.(?!response)[A-Za-z]")))
-                << told;
-            EXPECT_FALSE(std::regex_search(told, std::regex("\\bHost[A-Z]\\w*"))) << told;
-            for (const std::string& word : listNames(told))
+            EXPECT_EQ(reported.find("convention."), std::string::npos) << name << ": " << reported;
+            EXPECT_EQ(reported.find("scales."), std::string::npos) << name << ": " << reported;
+            EXPECT_FALSE(std::regex_search(reported, std::regex("\\bmotion\\.(?!response)[A-Za-z]"))
+            ) << reported;
+            EXPECT_FALSE(std::regex_search(reported, std::regex("\\bHost[A-Z]\\w*"))) << reported;
+            for (const std::string& word : listNames(reported))
                 EXPECT_TRUE(known.contains(word) || internal.contains(word))
-                    << name << ": " << word << " in " << told;
+                    << name << ": " << word << " in " << reported;
         }
     }
     EXPECT_GT(count, 200u) << "the sources were not read";
 }
 
-TEST(CStructures, InArraysNeverGrow) {
+TEST(CStructures, StructuresInArraysNeverGrow) {
     static_assert(sizeof(void*) == 8, "the sizes are those of 64-bit hosts");
     EXPECT_EQ(sizeof(ShutterBlurValue), 16u);
     EXPECT_EQ(sizeof(ShutterBlurCameraKey), 264u);
@@ -112,7 +112,7 @@ TEST(CStructures, InArraysNeverGrow) {
     EXPECT_EQ(sizeof(ShutterBlurCounter), 16u);
 }
 
-TEST(CStructures, WithinOthersNeverGrow) {
+TEST(CStructures, NestedStructuresNeverGrow) {
     EXPECT_EQ(sizeof(ShutterBlurUse), 24u);
     EXPECT_EQ(sizeof(ShutterBlurImage), 96u);
     EXPECT_EQ(sizeof(ShutterBlurCameras), 552u);
@@ -123,7 +123,7 @@ TEST(CStructures, WithinOthersNeverGrow) {
     EXPECT_EQ(offsetof(type, structBytes), 0u);                                                    \
     EXPECT_EQ(offsetof(type, field), size_t{offset}) << "a field before it has changed"
 
-TEST(CStructures, ThatTellTheirSizeKeepTheirFieldsInPlace) {
+TEST(CStructures, StructuresWithASizeFieldKeepTheirFieldsInPlace) {
     EXPECT_IN_PLACE(ShutterBlurDevice, messageUser, 80);
     EXPECT_IN_PLACE(ShutterBlurSettings, preset, 32);
     EXPECT_IN_PLACE(ShutterBlurRevealTask, entityId, 104);
@@ -132,7 +132,7 @@ TEST(CStructures, ThatTellTheirSizeKeepTheirFieldsInPlace) {
     EXPECT_IN_PLACE(ShutterBlurInputs, showsInputs, 1808);
     EXPECT_IN_PLACE(ShutterBlurInputs, lastDeformedMotion, 1928);
     EXPECT_IN_PLACE(ShutterBlurInputs, blendedOpacityInAlpha, 2160);
-    EXPECT_IN_PLACE(ShutterBlurReport, gaveUp, 40);
+    EXPECT_IN_PLACE(ShutterBlurReport, droppedQuality, 40);
     EXPECT_IN_PLACE(ShutterBlurPlan, moverCount, 52);
     EXPECT_IN_PLACE(ShutterBlurPlan, blendedPixels, 64); // not in the padding before it
     EXPECT_IN_PLACE(ShutterBlurMemory, bytes, 8);

@@ -164,7 +164,7 @@ TEST_F(HostInstantsTest, ThreeKeysAreEnoughForWhatTurnsBeforeATurningCameraOfEit
         addTumbler();
         const HostInstants made = compute();
         EXPECT_EQ(made.layers.isPerspective, perspective);
-        EXPECT_FALSE(made.layers.raster.isStill);
+        EXPECT_FALSE(made.layers.raster.isStatic);
         EXPECT_FALSE(made.layers.last.has_value());
         expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
         EXPECT_EQ(made.layers.raster.movers.at(0), shader::kWorldMover);
@@ -224,12 +224,12 @@ TEST_F(HostInstantsTest, AViewAlongPlusZGivesTheSameTables) {
     }
 }
 
-TEST_F(HostInstantsTest, OutsideOfTheKeysAllStandsStill) {
+TEST_F(HostInstantsTest, EverythingIsStaticOutsideOfTheKeys) {
     setKeys({0.5});
     frame.rasterTime = 0.5;
     addTumbler();
     const HostInstants made = compute();
-    EXPECT_TRUE(made.layers.raster.isStill);
+    EXPECT_TRUE(made.layers.raster.isStatic);
     EXPECT_EQ(made.layers.raster.movers.at(1), shader::kWorldMover);
     setKeys({0.0, 0.5});
     addTumbler();
@@ -242,15 +242,15 @@ TEST_F(HostInstantsTest, OutsideOfTheKeysAllStandsStill) {
     );
 }
 
-TEST_F(HostInstantsTest, BeforeACameraThatStandsStillBothLayersAreStill) {
+TEST_F(HostInstantsTest, BothLayersAreStaticUnderAStaticCamera) {
     for (HostCameraKey& key : keys)
         key.viewFromWorld = glm::inverse(place({7.0, 1.0, -2.0}, {1.0, 2.0, 3.0}, 0.7));
     addTumbler();
     const HostRaster last = compute().raster;
     const HostInstants made = compute(&last);
-    EXPECT_TRUE(made.layers.raster.isStill);
+    EXPECT_TRUE(made.layers.raster.isStatic);
     ASSERT_TRUE(made.layers.last.has_value());
-    EXPECT_TRUE(made.layers.last->isStill);
+    EXPECT_TRUE(made.layers.last->isStatic);
 }
 
 TEST_F(HostInstantsTest, InstantsFollowTheResponse) {
@@ -264,13 +264,13 @@ TEST_F(HostInstantsTest, InstantsFollowTheResponse) {
         EXPECT_NEAR(made.layers.times.at(i), std::sqrt((i + 0.5) / kInstants), 1e-6);
 }
 
-TEST_F(HostInstantsTest, WhatHasNoTransformsIsFoundByMotionVectors) {
+TEST_F(HostInstantsTest, MoversWithoutTransformsAreFoundByMotionVectors) {
     movers = {{2, {}}};
     motion.movers = movers;
     EXPECT_EQ(compute().layers.raster.movers.at(2), shader::kDeformedMover);
 }
 
-TEST_F(HostInstantsTest, ASingularTransformIsNowhereToBeSeen) {
+TEST_F(HostInstantsTest, ASingularTransformIsInvisible) {
     addTumbler();
     for (dmat4& matrix : matrices)
         matrix[0] = dvec4(0.0);
@@ -301,7 +301,7 @@ TEST_F(HostInstantsTest, AnotherSizeOrProjectionHasNoLastRaster) {
     EXPECT_FALSE(compute(&last).layers.last.has_value());
 }
 
-TEST_F(HostInstantsTest, WithoutBothTransformsTheLastRasterSaysNothing) {
+TEST_F(HostInstantsTest, TheLastRasterIsNotUsedWithoutBothTransforms) {
     addTumbler();
     const HostRaster listed = compute().raster;
     motion.movers = {};

@@ -43,7 +43,7 @@ TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
     EXPECT_EQ(settings.maskTest, MaskTest::Paper);
 }
 
-TEST(MotionBlurSettings, WhatIsLeftOpenIsTheDefaultMethodAndEachMethodsOwnSamples) {
+TEST(MotionBlurSettings, UnsetFieldsAreTheDefaultMethodAndItsSamples) {
     EXPECT_TRUE(validate({}).ok());
     EXPECT_EQ(complete({}).method, &getMethod("resolved"));
     for (const Method* method : listMethods()) {
@@ -52,7 +52,7 @@ TEST(MotionBlurSettings, WhatIsLeftOpenIsTheDefaultMethodAndEachMethodsOwnSample
     }
 }
 
-TEST(MotionBlurSettings, WhereNobodyTellsMotionsTheDefaultReadsWhatEveryHostHas) {
+TEST(MotionBlurSettings, TheDefaultMethodWithoutMotionReadsCommonInputs) {
     const MotionBlurSettings settings = complete({}, false);
     EXPECT_TRUE(settings.method->readsImagesOnly());
     EXPECT_FALSE(settings.method->readsNormal);
@@ -302,14 +302,14 @@ TEST(SettingRows, EverySettingIsReadByAMethodAndEachNameReadHasARow) {
 constexpr uint32_t kFull = shader::kCandidatesPerTile;
 
 /// \param movers that each have a row; the sky's follows them
-math::LayerTables makeLayer(std::vector<uint32_t> movers, bool isStill) {
+math::LayerTables makeLayer(std::vector<uint32_t> movers, bool isStatic) {
     movers.push_back(shader::kSkyMover);
-    return {.movers = std::move(movers), .isStill = isStill};
+    return {.movers = std::move(movers), .isStatic = isStatic};
 }
 
-math::InstantLayers makeLayers(std::vector<uint32_t> movers, bool isStill) {
+math::InstantLayers makeLayers(std::vector<uint32_t> movers, bool isStatic) {
     math::InstantLayers layers;
-    layers.raster = makeLayer(std::move(movers), isStill);
+    layers.raster = makeLayer(std::move(movers), isStatic);
     return layers;
 }
 
@@ -325,7 +325,7 @@ TEST(CrowdedTiles, NeedMoreMoversThanAListHolds) {
     EXPECT_TRUE(mayCrowdTiles(makeLayers(countUp(kFull + 1), true)));
 }
 
-TEST(CrowdedTiles, CountWhatStandsStillAndTheSkyOnlyBeforeACameraThatMoves) {
+TEST(CrowdedTiles, StaticSurfacesAndTheSkyCountOnlyUnderAMovingCamera) {
     const std::vector<uint32_t> still(kFull, shader::kWorldMover);
     EXPECT_FALSE(mayCrowdTiles(makeLayers(still, true)));
     EXPECT_TRUE(mayCrowdTiles(makeLayers(still, false))) << "the sky is one more";
@@ -333,18 +333,18 @@ TEST(CrowdedTiles, CountWhatStandsStillAndTheSkyOnlyBeforeACameraThatMoves) {
     EXPECT_FALSE(mayCrowdTiles(makeLayers(fewer, false)));
 }
 
-TEST(CrowdedTiles, MayBeThoseThatSeveralPartsOfOneDeformedEntityReach) {
+TEST(CrowdedTiles, TilesReachedBySeveralPartsOfOneEntityMayBeCrowded) {
     math::InstantLayers layers = makeLayers({shader::kDeformedMover}, true);
     layers.raster.deforms = true;
     EXPECT_TRUE(mayCrowdTiles(layers));
 }
 
-TEST(CrowdedTiles, CountNothingOfWhichNothingIsKnown) {
+TEST(CrowdedTiles, UnknownRowsAreNotCounted) {
     EXPECT_FALSE(mayCrowdTiles(makeLayers(std::vector<uint32_t>(3 * kFull, shader::kNoMover), true))
     );
 }
 
-TEST(CrowdedTiles, MayBeThoseOfAnyLayer) {
+TEST(CrowdedTiles, TilesOfAnyLayerMayBeCrowded) {
     math::InstantLayers layers = makeLayers(countUp(1), true);
     layers.last = makeLayer(countUp(kFull + 1), true);
     EXPECT_TRUE(mayCrowdTiles(layers));

@@ -56,7 +56,7 @@ TEST_F(Flight, AllFramesWithinItAreDrawnAtTheFilesRate) {
     EXPECT_FALSE(options.flythroughHash.empty());
 }
 
-TEST_F(Flight, WhatIsTypedWins) {
+TEST_F(Flight, CommandLineOptionsOverrideTheFile) {
     mArguments.fps = 4.0;
     EXPECT_EQ(load().frameTimes, (std::vector<double>{0.25, 0.5}));
     EXPECT_EQ(load().frameSeconds, 0.25);
@@ -104,7 +104,7 @@ TEST_F(Flight, ARampBeyondAllTimesIsRefused) {
     EXPECT_NE(loaded.error().message.find("timeScale"), std::string::npos);
 }
 
-TEST_F(Flight, TooLongAFlightIsRefused) {
+TEST_F(Flight, AnOverlongFlightIsRefused) {
     write(R"({"version": 1, "fps": 1000, "keys": [
         {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0]},
         {"time": 1000, "position": [0, 0, 1], "lookAt": [0, 0, 0]}]})");
@@ -173,7 +173,7 @@ TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     EXPECT_NE(missing.error().message.find("clip:tilt"), std::string::npos);
 }
 
-TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
+TEST(Fingerprint, TheFingerprintHasExactlyThePicturesInputs) {
     const auto describe = [](Words words) {
         words.insert(words.begin(), {"scene.glb", "--out", "f_%d.png"});
         RenderArguments arguments;

@@ -506,7 +506,7 @@ TEST_F(RenderOptionsTest, BloomHasAShareAThresholdAndAKnee) {
         refuse("--bloom", Words{"--bloom=" + wordOf(value)});
 }
 
-TEST_F(RenderOptionsTest, ShadowsAreOffUnlessAskedFor) {
+TEST_F(RenderOptionsTest, ShadowsAreOffByDefault) {
     EXPECT_EQ(accept(Words{}).shot.picture.shadows.mode, extract::ShadowMode::None);
     EXPECT_EQ(
         accept(Words{"--shadows=sharp"}).shot.picture.shadows.mode, extract::ShadowMode::Sharp

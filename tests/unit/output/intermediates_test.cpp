@@ -6,7 +6,7 @@
 
 namespace shutter::game {
 
-TEST(Intermediates, WhateverAMethodHasCanBeWrittenAndViewed) {
+TEST(Intermediates, AllIntermediatesOfAMethodCanBeWrittenAndViewed) {
     for (const MethodInfo& method : listMethods())
         for (const std::string& name : listIntermediates(method)) {
             const debug_view::ViewInfo* view = debug_view::findView(name);

@@ -48,7 +48,7 @@ class JournalOfASequence : public testing::Test {
     const fs::path mFolder = mTemporary.path();
 };
 
-TEST_F(JournalOfASequence, KnowsWhatIsCompleteWhenItIsOpenedAgain) {
+TEST_F(JournalOfASequence, AReopenedJournalHasTheCompleteFrames) {
     {
         SequenceJournal journal = open("a");
         EXPECT_EQ(journal.before(), Before::Nothing);
@@ -68,7 +68,7 @@ TEST_F(JournalOfASequence, KnowsWhatIsCompleteWhenItIsOpenedAgain) {
     EXPECT_FALSE(isComplete(again, -1)) << "its file is gone";
 }
 
-TEST_F(JournalOfASequence, OtherPicturesBeginAnew) {
+TEST_F(JournalOfASequence, AnotherFingerprintStartsANewJournal) {
     ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
     const SequenceJournal other = open("b");
     EXPECT_EQ(other.before(), Before::OtherPictures);
@@ -77,7 +77,7 @@ TEST_F(JournalOfASequence, OtherPicturesBeginAnew) {
     EXPECT_EQ(open("a").before(), Before::OtherPictures);
 }
 
-TEST_F(JournalOfASequence, CutOffAnywhereItStillTellsTheTruth) {
+TEST_F(JournalOfASequence, ATruncatedJournalStaysValid) {
     {
         SequenceJournal journal = open("a");
         for (int frame = 0; frame < 3; ++frame) {
@@ -98,7 +98,7 @@ TEST_F(JournalOfASequence, CutOffAnywhereItStillTellsTheTruth) {
     }
 }
 
-TEST_F(JournalOfASequence, IsReadWithoutAWrite) {
+TEST_F(JournalOfASequence, AJournalIsReadWithoutWriting) {
     const auto missing = SequenceJournal::read(file(), "a");
     ASSERT_TRUE(missing.ok());
     EXPECT_EQ(missing.value().frameCount(), 0u);
@@ -116,7 +116,7 @@ TEST_F(JournalOfASequence, IsReadWithoutAWrite) {
     EXPECT_EQ(text(), cut);
 }
 
-TEST_F(JournalOfASequence, TakesFramesFromAnother) {
+TEST_F(JournalOfASequence, FramesOfAnotherJournalAreMerged) {
     SequenceJournal part = open("a");
     ASSERT_TRUE(part.add(2, {write("f_0002.png", "x")}).ok());
     const fs::path wholeFile = mFolder / ".whole.journal";
@@ -133,7 +133,7 @@ TEST_F(JournalOfASequence, TakesFramesFromAnother) {
     EXPECT_FALSE(isComplete(again.value(), 3));
 }
 
-TEST_F(JournalOfASequence, WhatIsNoJournalBeginsAnew) {
+TEST_F(JournalOfASequence, AnInvalidFileStartsANewJournal) {
     ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
     const std::string header = text().substr(0, text().find('\n') + 1);
     for (const std::string& wrong :
@@ -178,7 +178,7 @@ TEST_F(JournalOfASequence, AnothersPictureCompletesNoFrame) {
     EXPECT_TRUE(isComplete(again, 2));
 }
 
-TEST_F(JournalOfASequence, WhatCannotBeReadOrWrittenIsNamed) {
+TEST_F(JournalOfASequence, UnreadableOrUnwritableJournalsAreNamed) {
     const auto nowhere = SequenceJournal::open(mFolder / "no/such/.journal", "a");
     ASSERT_FALSE(nowhere.ok());
     EXPECT_NE(nowhere.error().message.find("no/such/.journal"), std::string::npos);
@@ -192,7 +192,7 @@ TEST_F(JournalOfASequence, WhatCannotBeReadOrWrittenIsNamed) {
     EXPECT_NE(gone.error().message.find(".f_%04d.png.journal"), std::string::npos);
 }
 
-TEST(JournalFile, LiesHiddenBesideThePictures) {
+TEST(JournalFile, TheJournalIsAHiddenFileNextToThePictures) {
     EXPECT_EQ(journalFile("f_%04d.png"), ".f_%04d.png.journal");
     EXPECT_EQ(journalFile("out/f_%04d.png"), "out/.f_%04d.png.journal");
     EXPECT_EQ(journalFile("/a/b/f_%d.exr"), "/a/b/.f_%d.exr.journal");
@@ -216,7 +216,7 @@ std::string find(const RenderOptions& options, size_t frame) {
     return found.value() ? describe(*found.value()) : "-";
 }
 
-TEST(TimecodeTest, CountsFramesSecondsMinutesHoursAndDays) {
+TEST(TimecodeTest, TimecodesCountFramesSecondsMinutesHoursAndDays) {
     const RenderOptions options = makeOptions("01:02:03:20", 24.0);
     EXPECT_EQ(find(options, 0), "01:02:03:20");
     EXPECT_EQ(find(options, 3), "01:02:03:23");
@@ -227,7 +227,7 @@ TEST(TimecodeTest, CountsFramesSecondsMinutesHoursAndDays) {
     EXPECT_EQ(find(makeOptions("", 24.0), 5), "-");
 }
 
-TEST(TimecodeTest, OfTheFramesNumberBeginsWithIt) {
+TEST(TimecodeTest, TheTimecodeBeginsAtTheGivenOne) {
     RenderOptions options = makeOptions("frame", 25.0);
     options.shot.firstFrame = 1001;
     EXPECT_EQ(find(options, 0), "00:00:40:01");
@@ -236,7 +236,7 @@ TEST(TimecodeTest, OfTheFramesNumberBeginsWithIt) {
     EXPECT_EQ(find(options, 0), "--timecode frame: frame -1 has none");
 }
 
-TEST(TimecodeTest, WhatNoClockShowsIsRefused) {
+TEST(TimecodeTest, InvalidTimesAreRefused) {
     EXPECT_EQ(
         find(makeOptions("00:00:00:24", 24.0), 0),
         "--timecode 00:00:00:24: a second has 24 frames, numbered from 0"
@@ -262,7 +262,7 @@ TEST(TimecodeTest, WhatNoClockShowsIsRefused) {
     EXPECT_EQ(find(film, 1), "00:00:01:00");
 }
 
-TEST(FrameStampTest, IsOfFramesOfASequenceAlone) {
+TEST(FrameStampTest, OnlyFramesOfASequenceHaveAStamp) {
     RenderOptions options = makeOptions("01:02:03:20", {24000.0, 1001.0});
     options.shot.isSequence = true;
     const auto stamp = findStamp(options, 4);

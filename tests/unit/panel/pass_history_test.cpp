@@ -56,7 +56,7 @@ TEST(PassHistory, PassesOfOneNameAddUpAndWhatIsNoTimeIsNone) {
         EXPECT_EQ(history.milliseconds(0, pass), 0.0f);
 }
 
-TEST(PassHistory, ForgetsOldFramesAndPassesThatNoFrameHas) {
+TEST(PassHistory, OldFramesAndUnusedPassesAreForgotten) {
     PassHistory history;
     history.add(makeFrame({{"once", 1.0}, {"always", 0.0}}));
     for (size_t i = 1; i < PassHistory::kFrames; ++i)

@@ -76,7 +76,7 @@ template <class Owner> void force(const core::SettingRow<Owner>& row, Owner& own
         owner.**std::get_if<double Owner::*>(&row.field) = value;
 }
 
-TEST_F(PlaySettingsFile, IsReadBackAsItWasWritten) {
+TEST_F(PlaySettingsFile, SettingsAreReadBackAsWritten) {
     for (uint32_t seed = 0; seed < 100; ++seed) {
         const PlaySettings settings = test::RandomSettings(seed).make();
         ASSERT_TRUE(game::validate(settings).ok()) << game::validate(settings).error().message;
@@ -107,7 +107,7 @@ TEST(PlaySettingsRows, EveryRowHasALabelForPeopleThatNoOtherOfItsTableHas) {
     });
 }
 
-TEST_F(PlaySettingsFile, NeedsNothingButItsVersion) {
+TEST_F(PlaySettingsFile, OnlyTheVersionIsRequired) {
     std::ofstream(mPath) << R"({"version": 1})";
     const auto loaded = game::loadPlaySettings(mPath);
     ASSERT_TRUE(loaded.ok()) << loaded.error().message;
@@ -117,7 +117,7 @@ TEST_F(PlaySettingsFile, NeedsNothingButItsVersion) {
     EXPECT_EQ(fromFile, read());
 }
 
-TEST_F(PlaySettingsFile, IsRefusedWithLineAndField) {
+TEST_F(PlaySettingsFile, InvalidSettingsAreRefusedWithLineAndField) {
     EXPECT_EQ(
         refuse("{\"version\": 1,\n \"blur\": {\n  \"jitter\": 2}}"),
         "3: blur.jitter: must lie in [0, 1], not 2"
@@ -166,7 +166,7 @@ TEST_F(PlaySettingsFile, IsRefusedWhereTheLensIsBetweenTheCamerasOwnAndTheLeastO
     EXPECT_EQ(refuse("{\"version\": 1, \"lens\": {\"fStop\": 2.8, \"blurScale\": 0}}"), "");
 }
 
-TEST_F(PlaySettingsFile, IsRefusedWhereTheResponseTakesNoLight) {
+TEST_F(PlaySettingsFile, AResponseWithoutLightIsRefused) {
     const auto respond = [&](const std::string& response) {
         return refuse("{\"version\": 1, \"shutter\": {\"response\": {" + response + "}}}");
     };
@@ -186,7 +186,7 @@ TEST_F(PlaySettingsFile, IsRefusedWhereTheResponseTakesNoLight) {
     EXPECT_EQ(respond("\"samples\": []"), "");
 }
 
-TEST_F(PlaySettingsFile, IsNotWrittenOfWrongSettings) {
+TEST_F(PlaySettingsFile, InvalidSettingsAreNotWritten) {
     PlaySettings settings;
     settings.dividerShare = 1.5;
     const core::Status saved = game::savePlaySettings(mPath, settings);
@@ -222,7 +222,7 @@ TEST(PlaySettings, EveryFieldOutOfItsRangeIsNamed) {
     EXPECT_GT(numbers, 30);
 }
 
-TEST(PlaySettings, NamesThatThereAreNotAreRefused) {
+TEST(PlaySettings, UnknownNamesAreRefused) {
     PlaySettings settings;
     EXPECT_TRUE(game::validate(settings).ok());
     settings.leftMethod = "nosuch";
@@ -267,7 +267,7 @@ TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
     );
 }
 
-TEST(Presets, SetTheEffectsBesideTheBlurExceptWhereTheyCompareIt) {
+TEST(Presets, PresetsSetTheOtherEffectsUnlessTheyCompareTheBlur) {
     PlaySettings settings;
     const auto apply = [&](const char* name) {
         game::applyPreset(*game::findPreset(name).value(), settings);
@@ -288,7 +288,7 @@ TEST(Presets, SetTheEffectsBesideTheBlurExceptWhereTheyCompareIt) {
     EXPECT_EQ(game::formatPlaySettings(settings), game::formatPlaySettings(PlaySettings()));
 }
 
-TEST(Presets, AreValidDistinctAndApplied) {
+TEST(Presets, PresetsAreValidDistinctAndApplied) {
     for (const game::Preset& preset : game::listPresets()) {
         PlaySettings settings = test::RandomSettings(1).make();
         const scene::CameraShutter shutter = settings.shutter;

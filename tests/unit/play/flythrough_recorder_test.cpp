@@ -48,7 +48,7 @@ class Recorder : public testing::Test {
         ); // tests run side by side
 };
 
-TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
+TEST_F(Recorder, ARecordedFlightRepeatsTheSameMotion) {
     mRecorder.start();
     for (int i = 0; i <= 60; ++i)
         addFrame(mCameras[0], 5.0 + i / 60.0);
@@ -121,7 +121,7 @@ TEST_F(Recorder, TheFieldOfViewIsThatOfThePicture) {
     EXPECT_NEAR(*flight.keys[0].fieldOfView, yFov * 180.0 / std::numbers::pi, 1e-9);
 }
 
-TEST_F(Recorder, AnotherCameraIsACut) {
+TEST_F(Recorder, ACameraChangeIsACut) {
     mRecorder.start();
     addFrame(mCameras[0], 0.0);
     addFrame(mCameras[0], 0.05);

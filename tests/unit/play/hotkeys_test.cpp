@@ -16,7 +16,7 @@ const std::vector<std::string> kViews = {"motion", "tiles"};
 
 class Hotkeys : public testing::Test {
   protected:
-    PanelWishes press(std::initializer_list<Key> keys, double speed = 1.0) {
+    PanelRequests press(std::initializer_list<Key> keys, double speed = 1.0) {
         app::InputCollector input;
         for (const Key key : keys)
             input.setKey(key, true);
@@ -50,10 +50,10 @@ TEST_F(Hotkeys, TheLeftSideHasAMethodOfItsOwn) {
 }
 
 TEST_F(Hotkeys, FFocusesOnTheMiddleAndWithShiftAsTheCameraDoes) {
-    const PanelWishes middle = press({Key::F});
+    const PanelRequests middle = press({Key::F});
     EXPECT_TRUE(middle.focusMiddle);
     EXPECT_FALSE(middle.focusOwn);
-    const PanelWishes own = press({Key::Shift, Key::F});
+    const PanelRequests own = press({Key::Shift, Key::F});
     EXPECT_FALSE(own.focusMiddle);
     EXPECT_TRUE(own.focusOwn);
 }
@@ -123,7 +123,7 @@ TEST_F(Hotkeys, NumbersAreThePresets) {
     EXPECT_EQ(settings.method, presets[4].method);
 }
 
-TEST_F(Hotkeys, WhatIsNotASettingIsAWish) {
+TEST_F(Hotkeys, KeysOtherThanSettingsAreRequests) {
     EXPECT_TRUE(press({Key::P}).togglePause);
     EXPECT_TRUE(press({Key::Period}).singleStep);
     EXPECT_TRUE(press({Key::R}).toggleRecording);
@@ -132,7 +132,7 @@ TEST_F(Hotkeys, WhatIsNotASettingIsAWish) {
     EXPECT_TRUE(press({Key::F9}).load);
     EXPECT_TRUE(press({Key::F11}).toggleFullScreen);
     EXPECT_TRUE(press({Key::Escape}).quit);
-    const PanelWishes none = press({});
+    const PanelRequests none = press({});
     EXPECT_FALSE(none.quit || none.save || none.load || none.togglePause || none.singleStep);
 }
 

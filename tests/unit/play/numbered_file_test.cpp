@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(NumberedFile, TakesTheFirstNumberThatIsFreeAndSaysWhenThereIsNone) {
+TEST(NumberedFile, TheFirstFreeNumberIsTakenAndItsAbsenceIsReported) {
     const fs::path folder = fs::path(testing::TempDir()) / "numbered_file";
     fs::remove_all(folder);
     fs::create_directories(folder);

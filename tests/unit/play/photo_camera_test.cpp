@@ -45,7 +45,7 @@ class PhotoFlight : public testing::Test {
     static constexpr double kNow = 0.5;
 };
 
-TEST_F(PhotoFlight, UntilItIsMovedItIsTheStagesCameraRollIncluded) {
+TEST_F(PhotoFlight, AnUnmovedPhotoCameraIsTheStagesCameraWithRoll) {
     camera.take(world, stage, kNow);
     camera.advance(world, {}, 0.1, 500.0);
     for (const double seconds : {kNow, kNow - 0.02})
@@ -85,7 +85,7 @@ TEST_F(PhotoFlight, ItHasTheViewersLensAtOnce) {
     EXPECT_EQ(scene::lensAt(world, camera.entity(), kNow).focusDistance, 3.0);
 }
 
-TEST_F(PhotoFlight, ItFliesAheadAndKeepsTheBlurOfTheCameraItHangsOn) {
+TEST_F(PhotoFlight, ThePhotoCameraFliesAheadAndKeepsTheStageCamerasBlur) {
     camera.take(world, stage, kNow);
     const dvec3 ahead = -dvec3(at(stage, kNow)[2]);
     fly(Key::W, 0.5);
@@ -115,7 +115,7 @@ TEST_F(PhotoFlight, ScaleOfTheStagesCameraIsNotItsOwn) {
     }
 }
 
-TEST_F(PhotoFlight, ItIsMadeOnceAndLeavesNothingBehind) {
+TEST_F(PhotoFlight, ThePhotoCameraIsMadeOnceAndLeavesNothingBehind) {
     camera.advance(world, {}, 0.1, 500.0); // not out: nothing to move
     const size_t before = world.registry.aliveCount();
     camera.take(world, stage, kNow);

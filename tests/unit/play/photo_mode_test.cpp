@@ -37,18 +37,18 @@ class Photo : public ::testing::Test {
 };
 
 TEST_F(Photo, EachFrameOfTheSamePictureAddsARayUntilThereAreEnough) {
-    for (uint32_t i = 0; i < PhotoMode::kMostRays; ++i) {
+    for (uint32_t i = 0; i < PhotoMode::kMaxRays; ++i) {
         EXPECT_EQ(mode.raysToAdd(), 1u);
         ASSERT_EQ(draw(), i);
     }
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(mode.raysToAdd(), 0u);
-        EXPECT_EQ(draw(), PhotoMode::kMostRays);
+        EXPECT_EQ(draw(), PhotoMode::kMaxRays);
     }
-    EXPECT_EQ(mode.rays(), PhotoMode::kMostRays);
+    EXPECT_EQ(mode.rays(), PhotoMode::kMaxRays);
 }
 
-TEST_F(Photo, AnotherPictureStartsAnew) {
+TEST_F(Photo, AChangedPictureRestartsThePhoto) {
     const std::function<void()> changes[] = {
         [&] { view.width = 65; },
         [&] { view.height = 49; },
@@ -73,7 +73,7 @@ TEST_F(Photo, AnotherPictureStartsAnew) {
     }
 }
 
-TEST_F(Photo, ItTracesTheWholeWindowAndLeavesTheSettings) {
+TEST_F(Photo, APhotoTracesTheWholeWindowAndKeepsTheSettings) {
     PlaySettings settings;
     settings.split = true;
     settings.view = "motion";
@@ -89,7 +89,7 @@ TEST_F(Photo, ItTracesTheWholeWindowAndLeavesTheSettings) {
     EXPECT_EQ(mode.rays(), 0u);
 }
 
-TEST_F(Photo, WithoutRaysThePictureStaysTheMethods) {
+TEST_F(Photo, ThePictureStaysTheMethodsWithoutRays) {
     PlaySettings settings;
     settings.method = "gather";
     settings.split = true;

@@ -11,13 +11,13 @@
 namespace shutter::game {
 namespace {
 
-void expectRefused(const PlayArguments& arguments, const std::string& told) {
+void expectRefused(const PlayArguments& arguments, const std::string& reported) {
     const auto options = interpret(arguments);
-    ASSERT_FALSE(options) << told;
-    EXPECT_NE(options.error().message.find(told), std::string::npos) << options.error().message;
+    ASSERT_FALSE(options) << reported;
+    EXPECT_NE(options.error().message.find(reported), std::string::npos) << options.error().message;
 }
 
-TEST(PlayOptions, WithoutASceneADemoStarts) {
+TEST(PlayOptions, ADemoStartsWithoutAScene) {
     const auto options = interpret(PlayArguments());
     ASSERT_TRUE(options) << options.error().message;
     EXPECT_EQ(options.value().demo, "rally");
@@ -74,7 +74,7 @@ TEST(PlayOptions, TheLensIsTheSessionsNotTheScenes) {
     expectRefused(arguments, "--fstop");
 }
 
-TEST(PlayOptions, WrongUseIsToldByOption) {
+TEST(PlayOptions, WrongUsageIsReportedByOption) {
     PlayArguments arguments;
     arguments.method = "nothing";
     expectRefused(arguments, "--method");

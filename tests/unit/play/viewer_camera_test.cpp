@@ -40,7 +40,7 @@ class Viewer : public testing::Test {
     std::unique_ptr<ViewerCamera> mCamera;
 };
 
-TEST_F(Viewer, ItStandsWhereTheOtherCameraDid) {
+TEST_F(Viewer, TheViewerStartsAtTheOtherCamera) {
     advance(0.0, false);
     EXPECT_NEAR(glm::distance(at(0.0), dvec3(0, 1, 5)), 0.0, 1e-9);
     EXPECT_EQ(at(-1.0), at(0.0));
@@ -70,7 +70,7 @@ TEST_F(Viewer, ItHasTheLensOfTheOtherCameraHoweverThatIsFocused) {
     EXPECT_EQ(look(like).focusDistance, 1.5) << "keys alone";
 }
 
-TEST_F(Viewer, ItsWayOverTheFrameIsTheWayItTook) {
+TEST_F(Viewer, TheViewersMotionOverTheFrameIsTheOneItTook) {
     advance(0.0, false);
     const dvec3 before = at(0.0);
     advance(0.1, true);
@@ -102,7 +102,7 @@ TEST_F(Viewer, AJumpHasNoWay) {
     EXPECT_NEAR(at(0.1).x, 100.0, 1e-9);
 }
 
-TEST_F(Viewer, ItsWayStaysShort) {
+TEST_F(Viewer, TheViewersRecordedPathStaysShort) {
     for (int i = 0; i < 500; ++i)
         advance(0.1 * i, true);
     const auto& path = mWorld.registry.get<scene::PathMotion>(mCamera->entity());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kTurns = kRefitsPerBuild + 1;
 
-TEST(RefitTurns, OneInSixteenIsABuild) {
+TEST(RefitTurns, EverySixteenthTurnIsABuild) {
     for (size_t index = 0; index < 40; ++index) {
         RefitTurns turns(index);
         std::vector<uint32_t> builds;

@@ -120,7 +120,7 @@ vec3 waveAt(const DeformJob& job, const WaveRow& row, const vec3& position) {
         .position;
 }
 
-TEST(DeformWaves, TurnNormalsAndTangentsAsTheSurfaceTurns) {
+TEST(DeformWaves, WavesTurnNormalsAndTangentsWithTheSurface) {
     const WaveRow row{vec4(0.1f, 0.05f, 0.3f, 0.4f), vec4(2.0f, 1.0f, -0.5f, 0.0f)};
     for (const uint share : {kWaveShareAll, kWaveShareHeight})
         for (const vec3& position : {vec3(0.1f, 0.6f, 0.2f), vec3(-0.4f, 1.0f, -0.3f)}) {
@@ -169,7 +169,7 @@ TEST(DeformWaves, ManyTurnsFromTheOriginAreTheSineOfTheRest) {
     EXPECT_TRUE(isFiniteVector(waveAt(job, row, vec3(1e30f, 0, 0))));
 }
 
-TEST(Deform, WhatHasNoDirectionIsZero) {
+TEST(Deform, AVectorWithoutADirectionIsZero) {
     for (const vec3& nothing :
          {vec3(0.0f),
           vec3(kNotANumber, 1, 1),

@@ -131,7 +131,7 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     EXPECT_EQ(findDecision(all, "draw"), nullptr);
 }
 
-TEST(IdleCounter, SaysOnceThatNobodyWantedItForAWhile) {
+TEST(IdleCounter, IdlenessIsReportedOnce) {
     IdleCounter counter;
     EXPECT_FALSE(counter.advance(true));
     for (uint32_t frame = 1; frame < kFramesKept; ++frame)
@@ -141,7 +141,7 @@ TEST(IdleCounter, SaysOnceThatNobodyWantedItForAWhile) {
         EXPECT_FALSE(counter.advance(false)) << frame;
 }
 
-TEST(IdleCounter, AWishStartsItAnew) {
+TEST(IdleCounter, AUseRestartsTheCounter) {
     IdleCounter counter;
     for (uint32_t frame = 0; frame < 5 * kFramesKept; ++frame)
         EXPECT_FALSE(counter.advance(frame % (kFramesKept - 1) == 0)) << frame;

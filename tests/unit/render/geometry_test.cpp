@@ -32,12 +32,12 @@ TEST(Motion, TheMiddleOfClipSpaceIsTheMiddleOfThePicture) {
     EXPECT_NEAR(opposite.y, 100.0f, 1e-4f);
 }
 
-TEST(Motion, APointAtRestHasNone) {
+TEST(Motion, APointAtRestHasNoMotion) {
     const vec3 clip(0.3f, -0.2f, 2.0f);
     EXPECT_EQ(motionFromClip(clip, clip, clip, 0.1f, kPictureSize), vec2(0.0f));
 }
 
-TEST(Motion, ItPointsFromOpenToCloseInPixelsRightAndDown) {
+TEST(Motion, MotionPointsFromOpenToCloseInPixelsRightAndDown) {
     const vec3 open(0.0f, 0.0f, 2.0f);
     const vec3 close(0.2f, 0.4f, 2.0f); // a tenth and a fifth of clip space, halves of the picture
     const vec2 motion = motionFromClip(open, close, close, 0.1f, kPictureSize);
@@ -73,7 +73,7 @@ TEST(Motion, APointThatWasBehindTheCameraGetsAFiniteMotionInTheRightDirection) {
     EXPECT_TRUE(isFinite(motion.x));
 }
 
-TEST(Motion, ItIsNeverLongerThanWhatIsStoredAndKeepsItsDirection) {
+TEST(Motion, MotionIsClampedToTheStorableLengthInItsDirection) {
     const vec3 near(0.0f, 0.0f, 1.0f);
     const vec3 far(3.0e6f, 4.0e6f, 1.0f);
     const vec2 motion = motionFromClip(near, far, near, 0.1f, vec2(100.0f));
@@ -81,7 +81,7 @@ TEST(Motion, ItIsNeverLongerThanWhatIsStoredAndKeepsItsDirection) {
     EXPECT_NEAR(motion.y / motion.x, 4.0f / 3.0f, 1e-4f);
 }
 
-TEST(Motion, WhatIsNotFiniteCountsAsStill) {
+TEST(Motion, NonFiniteMotionCountsAsStatic) {
     const vec3 clip(0.1f, 0.2f, 1.0f);
     for (const float bad : {kNan, kInfinity, -kInfinity}) {
         EXPECT_EQ(
@@ -103,7 +103,7 @@ class Random {
     std::uniform_real_distribution<float> mValue{-1.0f, 1.0f};
 };
 
-TEST(RayTriangle, MeetsWhatDoublePrecisionMeets) {
+TEST(RayTriangle, HitsAgreeWithDoublePrecision) {
     Random random;
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -159,7 +159,7 @@ TEST(RayTriangle, NoRayGetsThroughASharedEdgeOrCorner) {
     }
 }
 
-TEST(RayTriangle, LiesInFrontOrBehindByTheSignOfT) {
+TEST(RayTriangle, TheSignOfTIsInFrontOrBehind) {
     const vec3 a(-1, -1, -2);
     const vec3 b(1, -1, -2);
     const vec3 c(0, 1, -2);
@@ -174,7 +174,7 @@ TEST(RayTriangle, LiesInFrontOrBehindByTheSignOfT) {
     EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0, 0, -1), a, c, b).frontFace);
 }
 
-TEST(RayTriangle, NothingDegenerateIsMet) {
+TEST(RayTriangle, DegenerateTrianglesAreNotHit) {
     const vec3 a(-1, -1, -2);
     const vec3 b(1, -1, -2);
     const vec3 c(0, 1, -2);

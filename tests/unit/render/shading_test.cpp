@@ -204,7 +204,7 @@ TEST(ShutterTime, EveryPrefixOfAPowerOfTwoHasOneRayAStratum) {
         }
 }
 
-TEST(ShutterTime, SoHasEveryAlignedRun) {
+TEST(ShutterTime, EveryAlignedRunHasOneTimePerStratum) {
     for (uint first = 0; first < 4096; first += 64) {
         std::set<uint> strata;
         for (uint i = first; i < first + 64; ++i)
@@ -226,7 +226,7 @@ TEST(ShutterTime, EachRayAloneIsUniformOverTheExposure) {
     }
 }
 
-TEST(ShutterTime, WithinItsStratumARayIsAnywhere) {
+TEST(ShutterTime, ARayTimeIsAnywhereWithinItsStratum) {
     std::vector<int> bins(8, 0);
     for (uint seed = 0; seed < 1024; ++seed) {
         const float inStratum = shutterTime(9u, hashPcg(seed)) * 16.0f;
@@ -255,13 +255,13 @@ TEST(SobolPoint, TheFirstPointsAreThePublishedOnes) {
         EXPECT_EQ(sobolPoint(i) >> 29u, expected[i]) << i;
 }
 
-TEST(SobolPoint, SoAreThoseOfTheFourthAndTheFifthDimension) {
+TEST(SobolPoint, FourthAndFifthDimensionsAreStratifiedToo) {
     const uvec2 expected[8] = {{0, 0}, {4, 4}, {6, 2}, {2, 6}, {1, 1}, {5, 5}, {7, 3}, {3, 7}};
     for (uint i = 0; i < 8; ++i)
         EXPECT_EQ(sobolPoint45(i) >> 29u, expected[i]) << i;
 }
 
-TEST(LensPlace, CoversTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
+TEST(LensPlace, PlacesCoverTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
     for (const uint seed : {1u, 900u})
         for (int other = 0; other < 3; ++other) {
             std::vector<int> cells(64, 0);
@@ -278,7 +278,7 @@ TEST(LensPlace, CoversTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
         }
 }
 
-TEST(PixelPlace, WithTheTimeItFillsTheCubeEvenly) {
+TEST(PixelPlace, PlaceAndTimeFillTheCubeEvenly) {
     // Elementary boxes of a net: whatever way the volume is cut into powers of two.
     for (const uint seed : {1u, 900u}) {
         for (int cut = 0; cut < 3; ++cut) {
@@ -357,7 +357,7 @@ TEST(TextureLod, ASlantedSurfaceCoversMoreOfTheTexture) {
     EXPECT_TRUE(isFinite(textureLevel(1.0f, kTexels, 1.0f / 16.0f, 0.0f, 0.0f)));
 }
 
-TEST(TextureLod, TheBiasIsAdded) {
+TEST(TextureLod, TheLevelIncludesTheBias) {
     constexpr float kTexels = 256.0f * 256.0f;
     EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, -1.5f), 1.5f, 1e-5f);
     EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, 0.5f), 3.5f, 1e-5f);

@@ -83,7 +83,7 @@ float addTexels(float right, float down, float caster) {
     return rows.x * row + rows.y * row + rows.z * row;
 }
 
-TEST(ShadowFilter, WhatIsFullyLitOrDarkIsExactlySo) {
+TEST(ShadowFilter, FullyLitAndDarkPointsAreExact) {
     bool isRounded = false;
     for (int i = -50; i <= 50; ++i)
         for (int j = -50; j <= 50; ++j) {
@@ -167,7 +167,7 @@ TEST(ShadowFilter, APlaneSeenFromItsEdgeHasNoSlope) {
 TEST(ShadowFilter, EdgesAreMadeSharperWhereTexelsAreLargerThanPixelsAndStayWhereTheyAre) {
     EXPECT_EQ(sharpenEdge(0.5f, 0.1f), 0.5f);
     EXPECT_EQ(sharpenEdge(0.3f, 4.0f), 0.3f) << "texels are smaller than pixels";
-    EXPECT_NEAR(sharpenEdge(0.4f, 0.1f), 0.5f - 0.1f * kMostEdgeContrast, 1e-6f);
+    EXPECT_NEAR(sharpenEdge(0.4f, 0.1f), 0.5f - 0.1f * kMaxEdgeContrast, 1e-6f);
     for (const float texels : {0.0f, 0.1f, 1.0f, 10.0f}) {
         EXPECT_EQ(sharpenEdge(0.0f, texels), 0.0f);
         EXPECT_EQ(sharpenEdge(1.0f, texels), 1.0f);
@@ -198,7 +198,7 @@ TEST(ShadowFilter, AMoverThatOnlyWentElsewhereKeepsItsRay) {
     EXPECT_NEAR(length(vec3(aligned) - point), 0.0f, 1e-5f);
 }
 
-TEST(ShadowFilter, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
+TEST(ShadowFilter, RotationOfAFlatMoverPreservesTheRaysPlanePoint) {
     // The disc has turned under the lamp; the ray passes it off its middle.
     const vec3 passed(0.7f, 0.0f, -0.4f);
     const vec3 lamp(0.2f, 4.0f, 0.1f);
@@ -214,7 +214,7 @@ TEST(ShadowFilter, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
     EXPECT_NEAR(met.z, passed.z, 5e-3f);
 }
 
-TEST(ShadowFilter, WhatIsBehindAPointLightIsNotLookedUp) {
+TEST(ShadowFilter, ReceiversBehindAPointLightAreNotLookedUp) {
     EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0), ball).w, 0.0f);
 }
 

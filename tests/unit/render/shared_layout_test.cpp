@@ -226,7 +226,7 @@ TEST_P(SharedLayout, GlslPutsEveryMemberWhereCppDoes) {
     EXPECT_EQ(offsets.at(""), 2 * type.bytes);
 }
 
-TEST_P(SharedLayout, ItsHeaderAssertsTheSizeThatCppGivesIt) {
+TEST_P(SharedLayout, HeadersAssertTheSizesOfCpp) {
     const Struct& type = GetParam();
     ASSERT_TRUE(type.assertedBytes) << type.header << " asserts no size of " << type.name;
     EXPECT_EQ(*type.assertedBytes, type.bytes);

@@ -71,7 +71,7 @@ TEST(SampleChannel, TimesOutsideTheKeysAreClamped) {
         EXPECT_EQ(sampleChannel(channel, after), dvec4(10.0, 8.0, 0.0, 0.0)) << after;
 }
 
-TEST(SampleChannel, OneKeyHoldsForEver) {
+TEST(SampleChannel, ASingleKeyHoldsForEver) {
     AnimationChannel channel;
     channel.times = {3.0f};
     channel.values = {vec4(1.0f, 2.0f, 3.0f, 0.0f)};
@@ -208,7 +208,7 @@ TEST_F(SampleAnimated, AnInactiveClipLeavesTheEarlierOneOrTheRestPose) {
     EXPECT_EQ(sampleX(1.0), 101.0);
 }
 
-TEST_F(SampleAnimated, HoldsAtTheEndsUnlessLooping) {
+TEST_F(SampleAnimated, AClipHoldsAtTheEndsUnlessLooping) {
     mAnimated.channels = {{0, 0}};
     EXPECT_EQ(sampleX(5.0), 4.0);
     EXPECT_EQ(sampleX(-1.0), 0.0);
@@ -300,7 +300,7 @@ TEST_F(ClipJumpsTest, KeysOutsideTheSpanAndKeysThatChangeNothingAreNone) {
     EXPECT_EQ(find(mEntity, {-1.0, 9.0}).size(), 2u);
 }
 
-TEST_F(ClipJumpsTest, OfStraightMotionOnlyKeysAtNearlyTheSameTimeAreOne) {
+TEST_F(ClipJumpsTest, OnlyNearlySimultaneousKeysOfStraightMotionAreAJump) {
     animate(mEntity, Interpolation::Linear, {0.0f, 1.0f, 1.005f, 1.05f, 2.0f}, {0, 0, 8, 9, 9});
     const std::vector<Jump> jumps = find(mEntity, {0.9, 1.1});
     ASSERT_EQ(jumps.size(), 1u) << "growth that takes its time goes a way";
@@ -333,7 +333,7 @@ TEST_F(ClipJumpsTest, ALoopMayJumpWhereItBeginsAnewAndAtItsKeysInEachRound) {
     EXPECT_TRUE(find(mEntity, {0.2, 1.6}).empty()) << "a clip that ends goes on as it ended";
 }
 
-TEST_F(ClipJumpsTest, SoManyRoundsThatNoneIsSeenAreNotLookedAt) {
+TEST_F(ClipJumpsTest, ClipsWithTooManyLoopsAreIgnored) {
     mWorld.playback.loop = true;
     animate(mEntity, Interpolation::Linear, {0.0f, 1.0e-6f}, {0.0f, 1.0f});
     const auto count = [&](const TimeSpan& span) {

@@ -35,7 +35,7 @@ bool finds(const PoseAt& poseAt) {
     return findsCameraCut(poseAt, 100.0, 100.02, kDetection);
 }
 
-TEST(CameraCut, PansAndRacesHoweverFastAndJumpsBelowTheThresholdsAreNone) {
+TEST(CameraCut, FastMotionAndJumpsBelowTheThresholdsAreNoCuts) {
     for (const double speed : {30.0, 180.0, 2000.0, 1e5, 1e7}) { // degrees or metres a second
         EXPECT_FALSE(finds([&](double t) { return pose(0.0, {speed * (t - 100.0), 0, 0}); }));
         if (speed <= 1e5) {
@@ -46,27 +46,27 @@ TEST(CameraCut, PansAndRacesHoweverFastAndJumpsBelowTheThresholdsAreNone) {
     EXPECT_FALSE(finds([&](double t) { return pose(0.0, {t < 100.01 ? 0.0 : 0.45, 0, 0}); }));
 }
 
-TEST(CameraCut, AJumpIsOneWhereverItLies) {
+TEST(CameraCut, AJumpAtAnyTimeIsACut) {
     for (const double at : {100.0000001, 100.0007, 100.01, 100.01999}) {
         EXPECT_TRUE(finds([&](double t) { return pose(t < at ? 0.0 : 15.0, dvec3(0.0)); })) << at;
         EXPECT_TRUE(finds([&](double t) { return pose(0.0, dvec3(t < at ? 0.0 : 0.7)); })) << at;
     }
 }
 
-TEST(CameraCut, AJumpWithinAFastPanIsOne) {
+TEST(CameraCut, AJumpWithinAFastPanIsACut) {
     EXPECT_TRUE(finds([&](double t) {
         return pose(4000.0 * (t - 100.0) + (t < 100.0123 ? 0.0 : 25.0), {300.0 * t, 0, 0});
     }));
 }
 
-TEST(CameraCut, ThereAndBackWithinASixteenthIsSeenAtItsStepsOnly) {
+TEST(CameraCut, AnExcursionWithinASixteenthIsDetectedAtStepsOnly) {
     // Three whole intervals elsewhere: two jumps, each found by itself.
     EXPECT_TRUE(finds([&](double t) {
         return pose(t > 100.005 && t < 100.009 ? 90.0 : 0.0, dvec3(0.0));
     }));
 }
 
-TEST(CameraCut, NothingIsFoundWhereDetectionIsOffOrThereIsNoTime) {
+TEST(CameraCut, NoCutIsFoundWithDetectionOffOrNoTime) {
     const auto jumps = [](double t) { return pose(t < 100.01 ? 0.0 : 90.0, dvec3(0.0)); };
     EXPECT_FALSE(findsCameraCut(jumps, 100.0, 100.02, {false, 10.0, 0.5}));
     EXPECT_FALSE(findsCameraCut(jumps, 100.01, 100.01, kDetection));
@@ -80,7 +80,7 @@ TEST(CameraCut, ACameraThatIsNowhereForAWhileIsNotCut) {
     }));
 }
 
-TEST(CameraCut, AJumpFarFromTimeZeroIsOne) {
+TEST(CameraCut, AJumpFarFromTimeZeroIsACut) {
     // Where two neighbouring times are 1e-7 s apart, the halving ends early.
     EXPECT_TRUE(findsCameraCut(
         [](double t) { return pose(t < 1e9 + 0.5 ? 0.0 : 90.0, dvec3(0.0)); },
@@ -123,7 +123,7 @@ double computeReach(World& world, ecs::Entity cameraEntity, double aspect, doubl
     return reach;
 }
 
-TEST(ComputeWorldBounds, AreEmptyForAnEmptySceneAndForMeshesWithoutPoints) {
+TEST(ComputeWorldBounds, BoundsOfAnEmptySceneOrMeshesWithoutPointsAreEmpty) {
     World world;
     EXPECT_TRUE(computeWorldBounds(world, 0.0).isEmpty());
     world.assets.meshes.emplace_back();
@@ -132,7 +132,7 @@ TEST(ComputeWorldBounds, AreEmptyForAnEmptySceneAndForMeshesWithoutPoints) {
     EXPECT_TRUE(computeWorldBounds(world, 0.0).isEmpty());
 }
 
-TEST(ComputeWorldBounds, HoldEveryDrawnEntityWhereItIsAtThatTime) {
+TEST(ComputeWorldBounds, BoundsContainEveryDrawnEntityAtThatTime) {
     World world;
     addBox(world, dvec3(-1.0), dvec3(0.0));
     const ecs::Entity mover = addBox(world, dvec3(0.0), dvec3(1.0));
@@ -142,7 +142,7 @@ TEST(ComputeWorldBounds, HoldEveryDrawnEntityWhereItIsAtThatTime) {
     EXPECT_EQ(bounds.max, dvec3(21.0, 1.0, 1.0));
 }
 
-TEST(ComputeWorldBounds, LeaveOutWhatIsNowhere) {
+TEST(ComputeWorldBounds, BoundsOmitNonFiniteEntities) {
     World world;
     addBox(world, dvec3(-1.0), dvec3(1.0));
     const ecs::Entity lost = addBox(world, dvec3(-1.0), dvec3(1.0));
@@ -156,7 +156,7 @@ TEST(ComputeWorldBounds, LeaveOutWhatIsNowhere) {
     EXPECT_EQ(computeWorldBounds(world, 0.0).max, dvec3(1.0));
 }
 
-TEST(ComputeWorldBounds, HoldASkinnedMeshWhereItsJointsPutIt) {
+TEST(ComputeWorldBounds, BoundsContainASkinnedMeshInItsPose) {
     World world;
     const ecs::Entity entity = addBox(world, dvec3(-1.0), dvec3(1.0));
     Mesh& mesh = world.assets.meshes[0];
@@ -176,7 +176,7 @@ TEST(ComputeWorldBounds, HoldASkinnedMeshWhereItsJointsPutIt) {
     EXPECT_NEAR(bounds.max.y, 1.0, 1e-4) << "its own transform has no meaning";
 }
 
-TEST(ComputeWorldBounds, HoldAMorphedMeshAtItsWeights) {
+TEST(ComputeWorldBounds, BoundsContainAMorphedMeshAtItsWeights) {
     World world;
     const ecs::Entity entity = addBox(world, dvec3(0.0), dvec3(1.0));
     Mesh& mesh = world.assets.meshes[0];
@@ -193,7 +193,7 @@ TEST(ComputeWorldBoundsDeathTest, AMeshIndexPastTheEndIsAProgrammersMistake) {
     EXPECT_DEATH((void)computeWorldBounds(world, 0.0), "no mesh 3");
 }
 
-TEST(AddFramingCamera, SeesTheWholeSceneAndFillsThePictureAtAnySizeAndAspect) {
+TEST(AddFramingCamera, TheCameraFramesTheWholeSceneAtAnySizeAndAspect) {
     struct Case {
         dvec3 min;
         dvec3 max;
@@ -220,7 +220,7 @@ TEST(AddFramingCamera, SeesTheWholeSceneAndFillsThePictureAtAnySizeAndAspect) {
     }
 }
 
-TEST(AddFramingCamera, LooksFromTheFrontAndALittleAbove) {
+TEST(AddFramingCamera, TheCameraIsInFrontAndALittleAbove) {
     World world;
     addBox(world, dvec3(-1.0), dvec3(1.0));
     const dmat4 pose = worldFromEntity(world, addFramingCamera(world, 1.0, 0.0), 0.0);
@@ -232,7 +232,7 @@ TEST(AddFramingCamera, LooksFromTheFrontAndALittleAbove) {
     EXPECT_NEAR(glm::dot(glm::normalize(dvec3(pose[3])), forward), -1.0, 1e-12); // at the centre
 }
 
-TEST(AddFramingCamera, IsRegisteredLastWithAFieldOfViewOf45Degrees) {
+TEST(AddFramingCamera, TheFramingCameraIsTheLastWithAFieldOfViewOf45Degrees) {
     World world;
     world.cameras.push_back(world.registry.create());
     const ecs::Entity entity = addFramingCamera(world, 1.0, 0.0);
@@ -244,7 +244,7 @@ TEST(AddFramingCamera, IsRegisteredLastWithAFieldOfViewOf45Degrees) {
     EXPECT_GT(camera.near, 0.0);
 }
 
-TEST(AddFramingCamera, FramesTheOriginOfAnEmptySceneAndThePlaceOfAPoint) {
+TEST(AddFramingCamera, TheOriginOfAnEmptySceneAndThePlaceOfAPointAreFramed) {
     World empty;
     const dmat4 atOrigin = worldFromEntity(empty, addFramingCamera(empty, 1.0, 0.0), 0.0);
     EXPECT_TRUE(math::isFinite(atOrigin));
@@ -259,7 +259,7 @@ TEST(AddFramingCamera, FramesTheOriginOfAnEmptySceneAndThePlaceOfAPoint) {
     EXPECT_NEAR(glm::length(offset - dvec3(atOrigin[3])), 0.0, 1e-9);
 }
 
-TEST(AddFramingCamera, FramesTheSceneAsItIsAtThatTime) {
+TEST(AddFramingCamera, TheSceneIsFramedAtThatTime) {
     World world;
     const ecs::Entity mover = addBox(world, dvec3(-1.0), dvec3(1.0));
     world.registry.add(mover, LinearVelocity{{100.0, 0.0, 0.0}});
@@ -302,7 +302,7 @@ class Lens : public testing::Test {
     ecs::Entity mCamera;
 };
 
-TEST_F(Lens, GoesThroughItsKeysAndStaysAtTheEnds) {
+TEST_F(Lens, ALensPassesItsKeysAndStaysAtTheEnds) {
     for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom}) {
         zoom({{0.0, 0.9}, {1.0, 0.4}, {3.0, 1.2}}, interpolation);
         EXPECT_TRUE(mayZoom(mWorld, mCamera));
@@ -331,13 +331,13 @@ TEST_F(Lens, AStraightZoomMultipliesTheFocalLengthEvenly) {
         EXPECT_NEAR(focal(at(t + 0.5)) / focal(at(t)), ratio, 1e-12) << t;
 }
 
-TEST_F(Lens, EasesAsAPathDoes) {
+TEST_F(Lens, ALensEasesLikeAPath) {
     zoom({{0.0, 1.0}, {2.0, 0.3}}, PathInterpolation::Linear, PathEase::InOut);
     const double whole = std::log(focal(0.3) / focal(1.0));
     EXPECT_NEAR(std::log(focal(at(0.5)) / focal(1.0)) / whole, 0.15625, 1e-12);
 }
 
-TEST_F(Lens, StaysALensBetweenTheWidestKeys) {
+TEST_F(Lens, InterpolationBetweenTheWidestKeysIsAValidLens) {
     zoom({{0.0, 3.14}, {0.01, 1e-9}, {1.0, 1e-9}, {1.01, 3.14}, {5.0, 1e-3}});
     for (double t = -0.1; t < 5.2; t += 0.003) {
         ASSERT_GT(at(t), 0.0) << t;
@@ -345,7 +345,7 @@ TEST_F(Lens, StaysALensBetweenTheWidestKeys) {
     }
 }
 
-TEST_F(Lens, RestsToTheLastBitBetweenEqualKeys) {
+TEST_F(Lens, ALensIsConstantBetweenEqualKeys) {
     zoom({{0.0, 0.123}, {1.0, 0.123}, {2.0, 0.123}});
     EXPECT_FALSE(mayZoom(mWorld, mCamera));
     for (double t = -0.5; t < 2.5; t += 0.0173)
@@ -395,7 +395,7 @@ TEST_F(Lens, BlurByZoomingScalesWithThatByTurning) {
     EXPECT_EQ(lensAt(0.0), at(2.0));
 }
 
-TEST_F(Lens, WhatIsExcludedFromBlurIsZoomedAlong) {
+TEST_F(Lens, ExcludedEntitiesFollowTheZoom) {
     zoom({{0.0, 0.9}, {4.0, 0.3}});
     const ecs::Entity still = mWorld.registry.create();
     mWorld.registry.add(still, LocalTransform{{{1.0, 2.0, -5.0}, {1, 0, 0, 0}, math::dvec3(1.0)}});
@@ -413,14 +413,14 @@ TEST_F(Lens, WhatIsExcludedFromBlurIsZoomedAlong) {
     }
 }
 
-TEST_F(Lens, AnOrthographicCameraHasNone) {
+TEST_F(Lens, AnOrthographicCameraHasNoLens) {
     zoom({{0.0, 0.9}, {4.0, 0.3}});
     mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
     EXPECT_FALSE(mayZoom(mWorld, mCamera));
     EXPECT_EQ(at(2.0), 0.7);
 }
 
-TEST(LensKeys, WrongOnesAreNamed) {
+TEST(LensKeys, WrongKeysAreNamed) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const auto errorOf = [](std::vector<LensKey> keys) {
         const core::Status valid = validateLens({std::move(keys)});

@@ -81,7 +81,7 @@ class SkinChain : public testing::Test {
     ecs::Entity mRoot, mTip, mBody;
 };
 
-TEST_F(SkinChain, InTheBindPoseMovesNothing) {
+TEST_F(SkinChain, TheBindPoseMovesNothing) {
     EXPECT_TRUE(isDeformable(mWorld, mBody));
     EXPECT_FALSE(mayDeform(mWorld, mBody));
     EXPECT_FALSE(mayObjectMove(mWorld, mBody));
@@ -92,7 +92,7 @@ TEST_F(SkinChain, InTheBindPoseMovesNothing) {
     EXPECT_TRUE(pose.morphWeights.empty());
 }
 
-TEST_F(SkinChain, BendsAboutItsJoint) {
+TEST_F(SkinChain, ASkinBendsAboutItsJoint) {
     turnTip();
     EXPECT_TRUE(mayDeform(mWorld, mBody));
     EXPECT_FALSE(mayObjectMove(mWorld, mBody)) << "the first joint stands";
@@ -108,7 +108,7 @@ TEST_F(SkinChain, BendsAboutItsJoint) {
     }
 }
 
-TEST_F(SkinChain, FollowsItsJointsAndNotItsOwnTransform) {
+TEST_F(SkinChain, ASkinFollowsItsJointsAndNotItsOwnTransform) {
     mWorld.registry.add(mBody, LocalTransform{{dvec3(100.0), {1.0, 0.0, 0.0, 0.0}, dvec3(7.0)}});
     mWorld.registry.add(mBody, LinearVelocity{dvec3(50.0)});
     EXPECT_FALSE(mayObjectMove(mWorld, mBody));
@@ -118,7 +118,7 @@ TEST_F(SkinChain, FollowsItsJointsAndNotItsOwnTransform) {
     expectSame(pointAt(1, {0.0, 2.0, 0.0}, 2.0), {6.0, 2.0, 0.0});
 }
 
-TEST_F(SkinChain, HasItsOriginAtTheFirstJointWithTheAxesOfTheWorld) {
+TEST_F(SkinChain, TheOriginIsAtTheFirstJointWithWorldAxes) {
     mWorld.registry.add(
         mRoot, LocalTransform{{dvec3(5.0, 6.0, 7.0), glm::angleAxis(1.0, kUnitZ), dvec3(2.0)}}
     );
@@ -135,7 +135,7 @@ TEST_F(SkinChain, AFirstJointThatIsNowhereLeavesTheOthersWhereTheyAre) {
     expectSame(pointAt(1, {0.0, 1.0, 0.0}, 0.0), {0.0, 1.0, 0.0});
 }
 
-TEST_F(SkinChain, KeepsItsNumbersSmallFarFromTheOrigin) {
+TEST_F(SkinChain, ASkinsNumbersStaySmallFarFromTheOrigin) {
     turnTip();
     const Deformation near = deformationAt(mWorld, mBody, 0.4);
     mWorld.registry.add(mRoot, LocalTransform{{dvec3(1e6, -1e6, 1e6)}});
@@ -196,7 +196,7 @@ TEST(SampleWeights, CubicSplineFollowsItsTangents) {
     EXPECT_NEAR(sampleWeights(channel, 1.5)[0], 0.25, 1e-12);
 }
 
-TEST(SampleWeights, OneKeyIsForEver) {
+TEST(SampleWeights, ASingleKeyHoldsForEver) {
     for (const Interpolation interpolation : {Interpolation::Step, Interpolation::Linear}) {
         WeightChannel channel = makeChannel(interpolation);
         channel.times = {1.0f};
@@ -294,7 +294,7 @@ class Waving : public testing::Test {
     VertexWaves mWaves;
 };
 
-TEST_F(Waving, RunsByItsFrequencyAndLeansConstantly) {
+TEST_F(Waving, AWaveRunsByItsFrequencyAndALeanIsConstant) {
     mWaves.lean = {0.0, 0.0, 0.5};
     for (const double seconds : {-1.3, 0.0, 0.2, 7.0}) {
         const WavePose pose = poseAt(seconds);
@@ -310,12 +310,12 @@ TEST_F(Waving, RunsByItsFrequencyAndLeansConstantly) {
     EXPECT_FALSE(mayObjectMove(mWorld, mEntity));
 }
 
-TEST_F(Waving, AfterAYearIsAsPreciseAsInTheFirstSecond) {
+TEST_F(Waving, WavesAreAsPreciseAfterAYearAsAtFirst) {
     const double year = 365.0 * 86400.0;
     EXPECT_NEAR(poseAt(year + 0.125).waves[0].phase, poseAt(0.125).waves[0].phase, 1e-6);
 }
 
-TEST_F(Waving, InTheWorldTheEntitysPlaceAndTurnDoNotMatter) {
+TEST_F(Waving, WorldWavesAreIndependentOfTheEntitysPlacement) {
     mWaves.inWorld = true;
     const double seconds = 0.3;
     const WavePose pose = poseAt(seconds);
@@ -331,7 +331,7 @@ TEST_F(Waving, InTheWorldTheEntitysPlaceAndTurnDoNotMatter) {
     expectSame(moved, std::sin(phase) * mWaves.waves[0].displacement);
 }
 
-TEST_F(Waving, InTheWorldAMovingEntityDeformsThoughNothingRuns) {
+TEST_F(Waving, StaticWorldWavesDeformAMovingEntity) {
     mWaves.waves[0].hertz = 0.0;
     (void)poseAt(0.0);
     mWorld.registry.add(mEntity, LinearVelocity{{1, 0, 0}});
@@ -341,7 +341,7 @@ TEST_F(Waving, InTheWorldAMovingEntityDeformsThoughNothingRuns) {
     EXPECT_TRUE(mayDeform(mWorld, mEntity));
 }
 
-TEST_F(Waving, InTheWorldAFlattenedEntityDoesNotWave) {
+TEST_F(Waving, WorldWavesDoNotMoveAFlattenedEntity) {
     mWaves.inWorld = true;
     mWorld.registry.get<LocalTransform>(mEntity).transform.scale = {1.0, 0.0, 1.0};
     const WavePose pose = poseAt(0.3);
@@ -349,7 +349,7 @@ TEST_F(Waving, InTheWorldAFlattenedEntityDoesNotWave) {
     EXPECT_TRUE(isFinite(pose));
 }
 
-TEST_F(Waving, WhatNoVertexCanFollowIsRefusedByName) {
+TEST_F(Waving, InvalidWavesAreRefusedByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto expectNamed = [&](const char* part, auto change) {
         VertexWaves changed = mWaves;
@@ -474,7 +474,7 @@ void expectHolds(const Bounds& bounds, const dvec3& point) {
     }
 }
 
-TEST(DeformedBounds, HoldEveryVertexOfRandomPoses) {
+TEST(DeformedBounds, BoundsContainEveryVertexOfRandomPoses) {
     Random random(1);
     const std::vector<Primitive> primitives = {makePrimitive(random, 20), makePrimitive(random, 3)};
     const PoseReach reach = computePoseReach(primitives);
@@ -490,7 +490,7 @@ TEST(DeformedBounds, HoldEveryVertexOfRandomPoses) {
     }
 }
 
-TEST(DeformedBounds, WithoutADeformationAreTheRestBounds) {
+TEST(DeformedBounds, BoundsWithoutADeformationAreTheRestBounds) {
     Random random(2);
     const Primitive primitive = makePrimitive(random, 10);
     const PoseReach reach = computePoseReach({&primitive, 1});
@@ -534,7 +534,7 @@ TEST(DeformedBounds, WeightsBelowZeroAndAboveOneReachAsFarAsTheyMove) {
     EXPECT_NEAR(computeDeformedBounds(reach, {{}, {-1.0}}).min.y, -2.0, 1e-4);
 }
 
-TEST(DeformedBounds, HoldVerticesWhoseRoundedWeightsSumToMoreThanOne) {
+TEST(DeformedBounds, BoundsContainVerticesWhoseRoundedWeightsExceedOne) {
     Primitive primitive;
     primitive.positions = {vec3(1.0f)};
     primitive.influenceCount = 4;
@@ -548,7 +548,7 @@ TEST(DeformedBounds, HoldVerticesWhoseRoundedWeightsSumToMoreThanOne) {
     );
 }
 
-TEST(DeformedBounds, AMeshWithoutVerticesHasNone) {
+TEST(DeformedBounds, AMeshWithoutVerticesHasNoBounds) {
     const PoseReach reach = computePoseReach({});
     EXPECT_TRUE(computeDeformedBounds(reach, {}).isEmpty());
     EXPECT_TRUE(computeDeformedBounds(reach, {{dmat4(1.0)}, {0.5}}).isEmpty());
@@ -571,7 +571,7 @@ TEST(DeformedBounds, ATargetWithoutPositionsMovesNothing) {
     EXPECT_EQ(computeDeformedBounds(reach, {{}, {1.0}}).max.y, 0.0);
 }
 
-TEST(DeformedBounds, WhatIsNowhereIsNotHeld) {
+TEST(DeformedBounds, NonFiniteVerticesAreNotIncluded) {
     const Primitive primitive = makeTwoPoints();
     const PoseReach reach = computePoseReach({&primitive, 1});
     for (const double bad :

@@ -69,7 +69,7 @@ class History : public testing::Test {
     ecs::Entity mCamera;
 };
 
-TEST_F(History, WhatAppearsInTheFrameStandsStillInItAlone) {
+TEST_F(History, EntitiesThatAppearAreStaticInThatFrameOnly) {
     const ecs::Entity mover = addMover({1, 0, 0});
     const ecs::Entity child = addChild(mover);
     const ecs::Entity other = addMover({2, 0, 0});
@@ -159,7 +159,7 @@ TEST_F(History, ATeleportedCameraStandsStillAndTheWorldMoves) {
     expectHeld(mover, false);
 }
 
-TEST_F(History, NothingHasAPastBeforeTheWorldBegan) {
+TEST_F(History, EntitiesHaveNoPastBeforeTheWorldBegan) {
     const ecs::Entity mover = addMover({1, 0, 0});
     EXPECT_EQ(World().startSeconds, -kInfinity);
     mWorld.startSeconds = 0.95;
@@ -252,7 +252,7 @@ TEST_F(History, HiddenIsHiddenWithItsDescendantsAndShowingStamps) {
     expectHeld(mover, false, 1.1); // it was in sight all the time
 }
 
-TEST_F(History, WhatIsHiddenFromATimeOnIsNotBefore) {
+TEST_F(History, HidingFromATimeDoesNotAffectEarlierTimes) {
     const ecs::Entity mover = addMover({1, 0, 0});
     const ecs::Entity child = addChild(mover);
     hide(mWorld, mover, 0.5);
@@ -370,7 +370,7 @@ TEST_F(RecordedMotionTest, AWheelUnderATurningBodyIsExactBetweenSteps) {
         EXPECT_NEAR(glm::distance(actual[column], expected[column]), 0.0, 1e-9) << column;
 }
 
-TEST_F(RecordedMotionTest, KeepsItsReachAndNoMoreHoweverLongItRuns) {
+TEST_F(RecordedMotionTest, RecordedMotionKeepsItsReachAndNoMore) {
     size_t most = 0;
     for (int i = 0; i <= 120 * 60; ++i) {
         recordMotion(mWorld, mMover, at({double(i), 0, 0}), i * kStep);
@@ -383,7 +383,7 @@ TEST_F(RecordedMotionTest, KeepsItsReachAndNoMoreHoweverLongItRuns) {
     EXPECT_NEAR(placeAt(now - 0.3 * kStep).x, 7199.7, 1e-6);
 }
 
-TEST_F(RecordedMotionTest, WhatRestsCostsOneKeyAndIsNotNoted) {
+TEST_F(RecordedMotionTest, AnEntityAtRestCostsOneKeyAndNoChange) {
     for (int i = 0; i <= 100; ++i)
         recordMotion(mWorld, mMover, at({std::min(i, 10) * 1.0, 0, 0}), i * kStep);
     EXPECT_EQ(path().keys.size(), 1u);
@@ -396,7 +396,7 @@ TEST_F(RecordedMotionTest, WhatRestsCostsOneKeyAndIsNotNoted) {
     EXPECT_TRUE(changes.entities.empty());
 }
 
-TEST_F(RecordedMotionTest, WhatRestedStartsFromTheStepBefore) {
+TEST_F(RecordedMotionTest, AnEntityLeavingRestStartsFromTheStepBefore) {
     for (int i = 0; i <= 100; ++i)
         recordMotion(mWorld, mMover, at({5, 0, 0}), i * kStep);
     recordMotion(mWorld, mMover, at({6, 0, 0}), 101 * kStep);
@@ -433,7 +433,7 @@ TEST_F(RecordedMotionTest, TheScaleOfTheRestPoseStays) {
     EXPECT_NEAR(glm::length(worldFromEntity(mWorld, mMover, 0.0)[0]), 3.0, 1e-12);
 }
 
-TEST_F(RecordedMotionTest, RefusesTimesThatDoNotRiseAndPosesThatAreNoWhere) {
+TEST_F(RecordedMotionTest, NonRisingTimesAndNonFinitePosesAreRefused) {
     recordMotion(mWorld, mMover, at({1, 0, 0}), 1.0);
     EXPECT_DEATH(recordMotion(mWorld, mMover, at({1, 0, 0}), 1.0), "recorded at 1 seconds after 1");
     EXPECT_DEATH(recordMotion(mWorld, mMover, at({kNaN, 0, 0}), 2.0), "not finite");

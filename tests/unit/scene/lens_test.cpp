@@ -164,7 +164,7 @@ TEST_F(Focus, DistancesAreInterpolatedAsInversesAndFNumbersAsLogarithms) {
     EXPECT_NEAR(at(9.0).focusDistance, 3.0, 1e-12);
 }
 
-TEST_F(Focus, WhatKeysLeaveOutIsTheLenss) {
+TEST_F(Focus, FieldsMissingInKeysAreTheLenses) {
     pull({{0.0, 1.0, {}, false}}, PathInterpolation::Linear);
     EXPECT_EQ(at(0.0).fStop, 2.0);
     EXPECT_EQ(at(0.0).focusDistance, 1.0);

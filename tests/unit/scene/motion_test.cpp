@@ -61,7 +61,7 @@ class WorldFromRigid : public WorldFromEntity {
         {1.0, 2.0, 3.0}, glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0))), dvec3(1.0)};
 };
 
-TEST_F(WorldFromRigid, ItsOwnScaleHasNoEffect) {
+TEST_F(WorldFromRigid, TheEntitysOwnScaleHasNoEffect) {
     const ecs::Entity parent = addEntity({{4.0, 0.0, 0.0}, glm::angleAxis(0.3, kUp), dvec3(2.0)});
     const ecs::Entity entity = addChild(parent, mPose);
     const dmat4 plain = worldFromRigid(mWorld, entity, 0.0);
@@ -73,7 +73,7 @@ TEST_F(WorldFromRigid, ItsOwnScaleHasNoEffect) {
     }
 }
 
-TEST_F(WorldFromRigid, ParentsTurnItAsWhatTheyCarryIsTurned) {
+TEST_F(WorldFromRigid, ParentsRotateItLikeTheirChildren) {
     const ecs::Entity parent = addEntity();
     const ecs::Entity entity = addChild(parent, mPose);
     auto& scale = mWorld.registry.get<LocalTransform>(parent).transform.scale;
@@ -88,7 +88,7 @@ TEST_F(WorldFromRigid, ParentsTurnItAsWhatTheyCarryIsTurned) {
     }
 }
 
-TEST_F(WorldFromRigid, WhereNoDirectionIsLeftItLooksAsItDoesWithoutScale) {
+TEST_F(WorldFromRigid, ParentScaleIsIgnoredIfItLeavesNoDirection) {
     const ecs::Entity parent = addEntity({{4.0, 0.0, 0.0}, glm::angleAxis(0.3, kUp), dvec3(1.0)});
     const ecs::Entity entity = addChild(parent, mPose);
     const ecs::Entity rider = addChild(entity);
@@ -115,7 +115,7 @@ TEST_F(WorldFromRigid, ALightWithoutAnAxisShinesAsItDoesWithoutScale) {
     expectNear(dvec3(worldFromLight(mWorld, light, 0.0)[2]), dvec3(plain[2]));
 }
 
-TEST_F(WorldFromEntity, OfAStillEntityIsItsLocalTransformAtAnyTime) {
+TEST_F(WorldFromEntity, AStaticEntitysTransformIsLocalAtAnyTime) {
     const math::Transform transform{
         {1.0, 2.0, 3.0},
         glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0))),
@@ -235,7 +235,7 @@ void expectInterval(
     EXPECT_DOUBLE_EQ(interval.at(interval.rasterTime), interval.raster);
 }
 
-TEST_F(WorldFromEntity, OnlyWhatCouldMoveMayMove) {
+TEST_F(WorldFromEntity, MayMoveIsTrueOnlyForEntitiesThatCouldMove) {
     const ecs::Entity still = addEntity();
     const ecs::Entity stillChild = addChild(still);
     EXPECT_FALSE(mayMove(mWorld, stillChild));
@@ -272,7 +272,7 @@ TEST(ComputeExposure, ZeroNegativeAndBadExposuresAreOneInstant) {
     }
 }
 
-TEST(ExposureInterval, AtIsExactAtBothEndsAndWithoutExposure) {
+TEST(ExposureInterval, TimesAreExactAtBothEndsAndWithoutExposure) {
     const ExposureInterval interval = computeExposure({1.0 / 48.0, ShutterPhase::End}, 7.0 / 24.0);
     EXPECT_EQ(interval.at(0.0), interval.open);
     EXPECT_EQ(interval.at(1.0), interval.close);
@@ -429,7 +429,7 @@ TEST_F(Artist, AnExcludedEntityRidesWithTheCamera) {
     }
 }
 
-TEST_F(Artist, UnderAStillCameraExcludedIsStill) {
+TEST_F(Artist, ExcludedEntitiesAreStaticUnderAStaticCamera) {
     mWorld.registry.remove<LinearVelocity>(mCamera);
     mWorld.registry.remove<AngularVelocity>(mCamera);
     const ecs::Entity mover = addMover({1, 0, 0}, {0, 3, 0});

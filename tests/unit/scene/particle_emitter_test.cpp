@@ -45,7 +45,7 @@ bool lives(const ParticleBirth& birth, double seconds) {
     return birth.seconds <= seconds && seconds < birth.seconds + birth.lifeSeconds;
 }
 
-TEST(ParticleEmission, WhoLivesAtATimeIsWhoLivesThenOfAllThatWereEverBorn) {
+TEST(ParticleEmission, LivingParticlesAreThoseOfAllBirthsAliveAtThatTime) {
     const ParticleEmitter emitter = makeEmitter(200.0);
     const auto all = list(emitter, -10.0, 10.0);
     ASSERT_EQ(all.size(), 400u);
@@ -90,7 +90,7 @@ TEST(ParticleEmission, ALifeHoldsItsFirstInstantAndNotItsLast) {
     EXPECT_EQ(list(emitter, 0.0, 5.0).size(), 3u) << "born and dead within";
 }
 
-TEST(ParticleEmission, AfterTenHoursParticlesAreAsFarApartAsAtFirst) {
+TEST(ParticleEmission, ParticleSpacingAfterTenHoursIsThatAtFirst) {
     ParticleEmitter emitter = makeEmitter(1000.0);
     emitter.spans = {{.fromSeconds = 0.0, .untilSeconds = 1e6, .perSecond = 1000.0}};
     emitter.lifeSpread = 0.0;
@@ -115,7 +115,7 @@ TEST(ParticleEmission, SpansAndBurstsThatComeOrGoChangeNoOther) {
     EXPECT_EQ(first.size(), 10u + list(makeEmitter(50.0), 1.0, 1.0).size());
 }
 
-TEST(ParticleEmission, AnotherSeedGivesOthers) {
+TEST(ParticleEmission, SeedsGiveDifferentParticles) {
     ParticleEmitter emitter = makeEmitter(50.0);
     const auto one = list(emitter, 2.0, 2.0);
     emitter.seed = 1;

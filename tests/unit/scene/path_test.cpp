@@ -48,7 +48,7 @@ dvec3 forwardAt(const PathMotion& path, double seconds) {
     return samplePath(path, {}, seconds).rotation * dvec3(0.0, 0.0, -1.0);
 }
 
-TEST(Path, GoesThroughItsKeysAndStaysAtTheEnds) {
+TEST(Path, APathPassesItsKeysAndStaysAtTheEnds) {
     for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom})
         for (const auto ease : {PathEase::None, PathEase::InOut}) {
             PathMotion path = curve();
@@ -119,7 +119,7 @@ TEST(Path, RotationsPassThroughTheirKeysSmoothlyTheShorterWay) {
     }
 }
 
-TEST(Path, ItLooksAtItsTargetAndStaysUpright) {
+TEST(Path, APathFacesItsTargetAndStaysUpright) {
     PathMotion path = curve();
     for (PathKey& each : path.keys)
         each.lookAt = dvec3(1, 0, -5) + 0.5 * each.seconds;
@@ -135,7 +135,7 @@ TEST(Path, ItLooksAtItsTargetAndStaysUpright) {
     }
 }
 
-TEST(Path, WithoutDirectionsTheRestPosesRotationAndScaleStay) {
+TEST(Path, APathWithoutDirectionsPreservesRotationAndScale) {
     math::Transform rest;
     rest.rotation = glm::angleAxis(0.3, kUp);
     rest.scale = {2, 3, 4};
@@ -144,7 +144,7 @@ TEST(Path, WithoutDirectionsTheRestPosesRotationAndScaleStay) {
     EXPECT_EQ(pose.scale, rest.scale);
 }
 
-TEST(Path, UntilACutItStaysAtTheKeyBefore) {
+TEST(Path, APathStaysAtTheKeyBeforeACutUntilIt) {
     PathMotion path;
     path.keys = {key(0, {0, 0, 0}), key(1, {1, 0, 0}), key(2, {50, 0, 0}), key(3, {51, 0, 0})};
     path.keys[2].cut = true;
@@ -219,7 +219,7 @@ TEST(Path, AHoldAtAnEndOfAShotAndBeforeACutStaysStill) {
     EXPECT_GT(placeAt(path, 5.5).y, 1.0);
 }
 
-TEST(Path, MovesItsEntityInTheParentsSpace) {
+TEST(Path, APathMovesItsEntityInTheParentsSpace) {
     World world;
     const ecs::Entity parent = world.registry.create();
     world.registry.add(parent, LocalTransform{{{10, 0, 0}, glm::angleAxis(0.0, kUp), dvec3(2.0)}});
@@ -237,7 +237,7 @@ TEST(Path, MovesItsEntityInTheParentsSpace) {
     expectNear(dvec3(worldFromEntity(world, entity, 7.0)[3]), {12, 2, 2});
 }
 
-TEST(Path, BadOnesAreRefusedByKey) {
+TEST(Path, BadPathsAreRefusedByKey) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(validatePath(curve()).ok());
     EXPECT_FALSE(validatePath({}).ok()) << "no keys";
@@ -339,7 +339,7 @@ TEST(LookAt, AShotThatBeginsOrEndsStraightDownOrUpDoesNotTurnOver) {
             }
 }
 
-TEST(LookAt, AnotherUpHasItsOwnStraightDown) {
+TEST(LookAt, StraightDownIsRelativeToUp) {
     PathMotion path =
         makePath({lookingKey(0, {0, 0, 6}), lookingKey(2, {4, 3, 5})}, PathInterpolation::Linear);
     path.up = {0, 0, 2};
@@ -389,7 +389,7 @@ double findCrossing(const PathMotion& path, double low, double high) {
     return high;
 }
 
-TEST(LookAt, OnStraightDownAndCloseToItTheViewIsAsJustBeforeIt) {
+TEST(LookAt, TheViewIsContinuousAtStraightDown) {
     // It crosses over at about 1.1 s, and back at about 1.9 s.
     const PathMotion twice = makePath(
         {lookingKey(0, {0, 4, 16}),
@@ -449,7 +449,7 @@ TEST(LookAt, EachShotHasAStraightDownOfItsOwn) {
     expectNear(axesAt(path, 2.0)[1], {-1, 0, 0});
 }
 
-TEST(LookAt, AtItsOwnPlaceItLooksTheWayThatItComesOrGoes) {
+TEST(LookAt, ATargetAtTheCameraUsesTheDirectionOfTravel) {
     for (const auto interpolation : kBoth) {
         const PathMotion comes = makePath(
             {lookingKey(0, {3, 1, 4}), lookingKey(1, dvec3(0.0)), lookingKey(2, dvec3(0.0))},

@@ -79,13 +79,13 @@ TEST(ExposureSeconds, ACapHoldsThroughAHitchAndLetsFastFramesBe) {
     EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 60.0), 1.0 / 120.0);
 }
 
-TEST(ExposureSeconds, APausedFrameHasNone) {
+TEST(ExposureSeconds, ExposureIsZeroWhenPaused) {
     for (const ShutterMode mode : {ShutterMode::Physical, ShutterMode::Angle, ShutterMode::Capped})
         for (const double frame : {0.0, -1.0, kNan})
             EXPECT_EQ(computeExposureSeconds(makeShutter(mode), frame), 0.0);
 }
 
-TEST(ExposureSeconds, WhatIsNoNumberIsNoExposure) {
+TEST(ExposureSeconds, NonFiniteDurationsHaveNoExposure) {
     for (const double bad : {kNan, kInfinity, -1.0}) {
         CameraShutter shutter = makeShutter(ShutterMode::Physical);
         shutter.exposureSeconds = bad;
@@ -102,7 +102,7 @@ TEST(ExposureSeconds, WhatIsNoNumberIsNoExposure) {
     }
 }
 
-TEST(ComputeExposure, ItCarriesItsFrameAndItsShutter) {
+TEST(ComputeExposure, TheExposureContainsItsFrameAndShutter) {
     CameraShutter shutter = makeShutter(ShutterMode::Angle);
     shutter.phase = ShutterPhase::Centre;
     shutter.objectScale = 0.5;
@@ -114,7 +114,7 @@ TEST(ComputeExposure, ItCarriesItsFrameAndItsShutter) {
     EXPECT_EQ(computeExposure(shutter, 2.0, kNan).frameSeconds, 0.0);
 }
 
-TEST(Response, WhatIsConstantNeedsNoTable) {
+TEST(Response, AConstantResponseNeedsNoTable) {
     EXPECT_FALSE(computeResponseTable({}));
     EXPECT_FALSE(computeResponseTable(trapezoid(0.0, 0.0)));
     EXPECT_FALSE(computeResponseTable(trapezoid(1e-9, 1e-9))) << "no flank in single precision";
@@ -228,7 +228,7 @@ TEST(Response, FirstKnotsOfZeroAreRightAsWell) {
     }
 }
 
-TEST(Response, OnlyTheShapeCounts) {
+TEST(Response, ResponsesOfEqualShapeAreEqual) {
     for (const double height : {1e-300, 1.0, 1e300})
         EXPECT_NEAR(
             invertResponse(sampled({0.0, height, height}), 0.3),
@@ -237,7 +237,7 @@ TEST(Response, OnlyTheShapeCounts) {
         );
 }
 
-TEST(ExposurePart, ItsRasterInstantIsTheNearestToTheFramesAndItKnowsTheFrame) {
+TEST(ExposurePart, APartsRasterInstantIsTheNearestToTheFrames) {
     CameraShutter shutter = makeShutter(ShutterMode::Angle);
     shutter.phase = ShutterPhase::Centre;
     const ExposureInterval whole = computeExposure(shutter, 2.0, 0.4); // from 1.9 to 2.1
@@ -259,7 +259,7 @@ TEST(ExposurePart, ItsRasterInstantIsTheNearestToTheFramesAndItKnowsTheFrame) {
     }
 }
 
-TEST(ExposurePart, ItTakesItsOwnShareOfTheLight) {
+TEST(ExposurePart, APartTakesItsShareOfTheLight) {
     CameraShutter shutter = makeShutter(ShutterMode::Physical);
     shutter.exposureSeconds = 1.0;
     for (const ShutterResponse& response :
@@ -285,7 +285,7 @@ TEST(ExposurePart, ItTakesItsOwnShareOfTheLight) {
     }
 }
 
-TEST(ExposurePart, OneWithoutLightIsTakenEvenly) {
+TEST(ExposurePart, APartWithoutLightIsUniform) {
     CameraShutter shutter = makeShutter(ShutterMode::Physical);
     shutter.exposureSeconds = 1.0;
     shutter.response = sampled({1.0, 0.0, 0.0, 1.0});

@@ -24,7 +24,7 @@ std::filesystem::path writeRoom(const test::TempFolder& folder) {
     return file;
 }
 
-TEST(OpenedScene, IsWrittenAsItWasWithWhatIsAdded) {
+TEST(OpenedScene, TheSceneIsWrittenUnchangedWithTheAdditions) {
     const test::TempFolder folder;
     const std::filesystem::path room = writeRoom(folder);
     const std::filesystem::path copy = folder.path() / "copy.glb";
@@ -41,7 +41,7 @@ TEST(OpenedScene, IsWrittenAsItWasWithWhatIsAdded) {
     EXPECT_EQ(again.write(copy), "");
 }
 
-TEST(OpenedScene, NamesTheFileAndTheNodeThatAreNotThere) {
+TEST(OpenedScene, MissingFilesAndNodesAreNamed) {
     const test::TempFolder folder;
     const std::filesystem::path out = folder.path() / "out.glb";
     const std::filesystem::path text =
@@ -64,7 +64,7 @@ std::string packGlb(std::string text) {
            word(0) + std::string("BIN\0", 4);
 }
 
-TEST(OpenedScene, RefusesDocumentsThatItCouldNotAddTo) {
+TEST(OpenedScene, DocumentsThatCannotBeExtendedAreRefused) {
     const test::TempFolder folder;
     const std::filesystem::path out = folder.path() / "out.glb";
     const auto furnish = [&](const std::string& members) {

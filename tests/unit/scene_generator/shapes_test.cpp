@@ -143,7 +143,7 @@ TEST(Shapes, SmoothNormalsLeaveAVertexWithoutATriangleItsOwn) {
     EXPECT_EQ(shape.normals.front(), vec3(0, 0, 1));
 }
 
-TEST(HardCases, AreTheOnesThatTheBenchPromises) {
+TEST(HardCases, HardCasesAreThoseOfTheBench) {
     std::set<std::string_view> names;
     for (const BenchCase& hardCase : listHardCases())
         names.insert(hardCase.name);
@@ -176,7 +176,7 @@ TEST(HardCases, AreTheOnesThatTheBenchPromises) {
     EXPECT_EQ(listHardCases().size(), promised.size()) << "a name stands twice";
 }
 
-TEST(HardCases, DescribeThemselvesInOneSentenceThatStatesTheMotion) {
+TEST(HardCases, EachCaseHasASentenceThatStatesItsMotion) {
     for (const BenchCase& hardCase : listHardCases()) {
         SCOPED_TRACE(hardCase.name);
         const std::string& text = hardCase.description;
@@ -189,7 +189,7 @@ TEST(HardCases, DescribeThemselvesInOneSentenceThatStatesTheMotion) {
     }
 }
 
-TEST(HardCases, LeaveRoomForEightTimesTheExposureBeforeTheirTime) {
+TEST(HardCases, CasesAllowForEightTimesTheExposureBeforeTheirTime) {
     for (const BenchCase& hardCase : listHardCases()) {
         EXPECT_GT(hardCase.exposureSeconds, 0.0) << hardCase.name;
         // Clips hold before time 0: an exposure that began earlier would see them stop.

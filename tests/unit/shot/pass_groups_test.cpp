@@ -18,7 +18,7 @@ PassGroup groupIn(const char* method, PassOwner owner) {
 class PlainEffect : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "plain"; }
 
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override { return {}; }
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override { return {}; }
 
     void declare(render::PostContext&) override {}
 };

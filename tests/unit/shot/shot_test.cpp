@@ -100,7 +100,7 @@ TEST_F(Clips, ClipsWithoutANameAreChosenByIndex) {
     expectActive({false, false, false});
 }
 
-TEST_F(Clips, WhatIsNoneOfThemIsRefusedWithAListOfThem) {
+TEST_F(Clips, UnknownClipsAreRefusedWithAList) {
     expectContains(select({"0"}), "scene.gltf: --clip '0' is none of its clips (it has none)");
     addClip("walk");
     addClip("");
@@ -151,7 +151,7 @@ TEST_F(Clips, ClipsThatMoveDifferentThingsPlayTogether) {
     expectActive({true, true, false, true, true});
 }
 
-TEST_F(Clips, ThoseThatAreNamedPlayThoughTheyMoveTheSame) {
+TEST_F(Clips, NamedClipsPlayEvenIfTheyDriveTheSameProperties) {
     const ecs::Entity node = addNode();
     move(addClip("take"), node);
     move(addClip("take"), node);
@@ -201,20 +201,20 @@ TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {
     expectContains(missing.error().message, "(0 without a name, 1 'take', 2 'take')");
 }
 
-TEST(Instants, AStillFrameTakesOne) {
+TEST(Instants, AStaticFrameTakesOneInstant) {
     const InstantChoice choice = chooseInstants({}, 1.0, 1024);
     EXPECT_EQ(choice.count, 1u);
     EXPECT_EQ(choice.reason, "nothing moves");
 }
 
-TEST(Instants, TheyAreNoFartherApartThanTheStep) {
+TEST(Instants, InstantsAreNoFartherApartThanTheStep) {
     EXPECT_EQ(chooseInstants({10.0, false}, 1.0, 1024).count, 10u);
     EXPECT_EQ(chooseInstants({10.1, false}, 1.0, 1024).count, 11u);
     EXPECT_EQ(chooseInstants({10.0, false}, 4.0, 1024).count, 3u);
     EXPECT_EQ(chooseInstants({0.2, false}, 1.0, 1024).count, 1u);
 }
 
-TEST(Instants, MostLimitsThemAndTheStepTells) {
+TEST(Instants, TheMaximumLimitsInstantsAndTheStepIsReported) {
     const InstantChoice choice = chooseInstants({1000.0, false}, 1.0, 100);
     EXPECT_EQ(choice.count, 100u);
     EXPECT_DOUBLE_EQ(choice.stepPx, 10.0);
@@ -222,9 +222,9 @@ TEST(Instants, MostLimitsThemAndTheStepTells) {
     EXPECT_EQ(chooseInstants({std::numeric_limits<double>::infinity(), false}, 1.0, 7).count, 7u);
 }
 
-TEST(Instants, AMovingLightTakesSomeWhereNoPointMoves) {
+TEST(Instants, AMovingLightTakesInstantsWithoutOtherMotion) {
     const InstantChoice choice = chooseInstants({0.0, true}, 1.0, 1024);
-    EXPECT_EQ(choice.count, kLeastInstantsOfLight);
+    EXPECT_EQ(choice.count, kMinInstantsOfLight);
     EXPECT_EQ(choice.reason, "only light moves");
     EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
 }

@@ -27,7 +27,7 @@ ColorMoments makeMoments(float middle, float spread) {
     return moments;
 }
 
-TEST(TaaPlaces, LieInThePixelOnceEachAndAroundItsCentre) {
+TEST(TaaPlaces, PlacesAreDistinctInThePixelAndAroundItsCentre) {
     dvec2 sum(0.0);
     for (int64_t i = 0; i < int64_t{kPlaceCount}; ++i) {
         const dvec2 place = computeJitterPx(i);
@@ -65,7 +65,7 @@ TEST(TaaColor, EncodingsComeBack) {
     }
 }
 
-TEST(TaaColor, WhatADisplayShowsStaysLinearAndABrightSampleDoesNotOutweighIt) {
+TEST(TaaColor, DisplayableColoursStayLinearAndBrightSamplesAreCompressed) {
     const vec3 seen(0.25f, 1.0f, 0.0f);
     EXPECT_EQ(shader::compress(seen), seen);
     EXPECT_EQ(shader::expand(seen), seen);
@@ -125,21 +125,21 @@ TEST(TaaHistory, TheBrightestColorsDoNotOverflowTheSum) {
     EXPECT_NEAR(shader::meanOf(kept).x, 2.0f, 1e-4f);
 }
 
-TEST(TaaHistory, InDoubtAColorThatNoNeighbourLooksLikeIsClippedAndTrustedLess) {
+TEST(TaaHistory, ADoubtfulColorUnlikeItsNeighboursIsClippedAndTrustedLess) {
     const Kept ghost = makeKept(1.8f, float(kPlaceCount));
     const Kept kept = addInDoubt(0.2f, ghost, makeMoments(0.2f, 0.01f));
     EXPECT_NEAR(shader::meanOf(kept).x, 0.2f, 0.02f);
     EXPECT_LE(kept.count, 2.0f);
 }
 
-TEST(TaaHistory, InDoubtASettledPixelTakesEachFrame) {
+TEST(TaaHistory, ADoubtfulSettledPixelTakesEachFrame) {
     Kept kept = makeKept(0.3f, float(kPlaceCount));
     for (int i = 0; i < 200; ++i)
         kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
     EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 1e-3f);
 }
 
-TEST(TaaHistory, AfterADoubtASettledPixelBecomesWhatItNowLooksLikeAndThenStays) {
+TEST(TaaHistory, ASettledPixelAdaptsAfterADoubtAndThenStays) {
     // The neighbourhood's colours spread so far that the old one is not clipped.
     Kept kept = makeKept(0.3f, float(kPlaceCount));
     for (int i = 0; i < 2; ++i)
@@ -150,7 +150,7 @@ TEST(TaaHistory, AfterADoubtASettledPixelBecomesWhatItNowLooksLikeAndThenStays) 
     EXPECT_EQ(add(0.9f, kept).sum, kept.sum);
 }
 
-TEST(TaaHistory, CountsComeBackFromTheirWord) {
+TEST(TaaHistory, CountsAreUnpackedUnchanged) {
     for (const float count : {0.0f, 1.0f, 4.75f, 16.0f, 16.5f})
         for (const uint32_t left : {0u, 1u, shader::kFollowedFrames}) {
             const Kept kept{shader::ivec3(1, 2, 3), count, left};
@@ -161,7 +161,7 @@ TEST(TaaHistory, CountsComeBackFromTheirWord) {
         }
 }
 
-TEST(TaaHistory, WithoutADoubtAThinLineThatThisFrameMissesStays) {
+TEST(TaaHistory, AThinLineMissedByOneFrameStaysWithoutADoubt) {
     const Kept line = makeKept(0.3f, 4.0f); // seen by one frame of three
     const Kept kept = add(0.0f, line);
     EXPECT_NEAR(shader::meanOf(kept).x, 0.24f, 1e-5f);
@@ -169,7 +169,7 @@ TEST(TaaHistory, WithoutADoubtAThinLineThatThisFrameMissesStays) {
     EXPECT_LT(shader::meanOf(addInDoubt(0.0f, line, makeMoments(0.0f, 0.0f))).x, 0.01f);
 }
 
-TEST(TaaMiddle, IsOfSamplesWhereverTheyLie) {
+TEST(TaaMiddle, TheMiddleIsReconstructedFromSamplesAtAnyOffset) {
     for (const float offset : {-0.5f, -0.2f, 0.0f, 0.4f, 0.5f}) {
         const vec3 weights = shader::findMiddleWeights(offset);
         for (int i = 0; i < 3; ++i)

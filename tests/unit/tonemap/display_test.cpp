@@ -23,7 +23,7 @@ image::Image makeImage(uint32_t channels, const std::vector<float>& values) {
 
 } // namespace
 
-TEST(Display, IsTheShadersOperatorAfterTheGain) {
+TEST(Display, TheDisplayIsTheShadersOperatorAfterTheGain) {
     const image::Image linear = makeImage(3, {0.1f, 0.2f, 0.3f, 5.0f, 0.0f, 1.0f});
     for (const Operator op : {Operator::None, Operator::Neutral})
         for (const double stops : {0.0, -2.0, 3.0}) {
@@ -39,7 +39,7 @@ TEST(Display, IsTheShadersOperatorAfterTheGain) {
         }
 }
 
-TEST(Display, OneChannelIsGrey) {
+TEST(Display, AnImageOfOneChannelIsGrey) {
     const image::Image grey = computeDisplayImage(makeImage(1, {0.3f, 4.0f}), {});
     const image::Image color =
         computeDisplayImage(makeImage(3, {0.3f, 0.3f, 0.3f, 4.0f, 4.0f, 4.0f}), {});

@@ -56,7 +56,7 @@ float metresBefore(const shader::PrepareTable& table, const glm::vec2& place, fl
 }
 
 CheckPoint makePoint(
-    const CheckFacts& said,
+    const CheckFacts& declared,
     const shader::PrepareTable& table,
     const shader::PrepareTable* close,
     const shader::CheckSample& sample,
@@ -65,12 +65,12 @@ CheckPoint makePoint(
     CheckPoint point;
     point.place = dvec2(pixel) + 0.5;
     point.motion = dvec2(sample.vector) * dvec2(table.pixelsPerUnit) - dvec2(table.jitterPx);
-    const float depth = said.flipsDepth ? 1.0f - sample.depth : sample.depth;
+    const float depth = declared.flipsDepth ? 1.0f - sample.depth : sample.depth;
     point.metres = shader::metresOfDepth(table, depth);
     point.isSky = point.metres >= shader::kSkyDepth;
     point.id = sample.id;
     point.deformed = sample.deformed;
-    if (!hasCameras(said))
+    if (!hasCameras(declared))
         return point;
     const glm::vec2 place(point.place);
     point.camera = shader::motionOfCamera(table, place, point.metres);
@@ -133,26 +133,26 @@ double findTypicalMetres(const std::vector<CheckPoint>& points) {
     return *middle;
 }
 
-std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& said) {
-    HostConvention convention = said.convention;
-    if (said.hasExposureCameras)
-        convention.cameras = said.open;
-    const shader::PrepareTable table = makePrepareTable(convention, said.picture);
+std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& declared) {
+    HostConvention convention = declared.convention;
+    if (declared.hasExposureCameras)
+        convention.cameras = declared.open;
+    const shader::PrepareTable table = makePrepareTable(convention, declared.picture);
     std::optional<shader::PrepareTable> close;
-    if (said.hasExposureCameras) {
-        convention.cameras = said.close;
-        close = makePrepareTable(convention, said.picture);
+    if (declared.hasExposureCameras) {
+        convention.cameras = declared.close;
+        close = makePrepareTable(convention, declared.picture);
     }
     std::vector<CheckPoint> points;
     points.reserve(shader::kCheckSamples);
     for (uint32_t i = 0; i < shader::kCheckSamples; ++i) {
         const glm::uvec2 cell(i % shader::kCheckAcross, i / shader::kCheckAcross);
         const CheckPoint point = makePoint(
-            said,
+            declared,
             table,
             close ? &*close : nullptr,
             frame.totals.samples[i],
-            shader::checkedPixel(cell, sizeOf(said.picture))
+            shader::checkedPixel(cell, sizeOf(declared.picture))
         );
         if (std::isfinite(point.motion.x) && std::isfinite(point.motion.y))
             points.push_back(point);

@@ -181,8 +181,9 @@ struct CheckPoint {
 [[nodiscard]] bool hasCameras(const CheckFacts& facts);
 
 /// Returns the samples with finite vectors and depth.
-/// \param said the host's declarations, or a hypothesis
-[[nodiscard]] std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& said);
+/// \param declared the host's declarations, or a hypothesis
+[[nodiscard]] std::vector<CheckPoint>
+makePoints(const CheckedFrame& frame, const CheckFacts& declared);
 
 /// Whether any finding is of one of the kinds.
 [[nodiscard]] bool

@@ -64,10 +64,10 @@ gpu::ComputePipelineDesc describeCheck(
 
 void clearTotals(graph::PassContext& context, graph::BufferHandle totals) {
     const VkBuffer buffer = context.resources.buffer(totals);
-    constexpr VkDeviceSize kLeast = offsetof(shader::CheckTotals, depthLeast);
-    vkCmdFillBuffer(context.commands, buffer, 0, kLeast, 0);
-    vkCmdFillBuffer(context.commands, buffer, kLeast, 4, 0xFFFFFFFFu);
-    vkCmdFillBuffer(context.commands, buffer, kLeast + 4, VK_WHOLE_SIZE, 0);
+    constexpr VkDeviceSize kMinOffset = offsetof(shader::CheckTotals, depthLeast);
+    vkCmdFillBuffer(context.commands, buffer, 0, kMinOffset, 0);
+    vkCmdFillBuffer(context.commands, buffer, kMinOffset, 4, 0xFFFFFFFFu);
+    vkCmdFillBuffer(context.commands, buffer, kMinOffset + 4, VK_WHOLE_SIZE, 0);
 }
 
 struct TotalsData {
@@ -286,7 +286,7 @@ void HostChecker::finish(uint32_t frame) {
     std::unique_ptr<CheckedFrame>& last = mLast[mNow->facts.view];
     const bool isNext = last && mNow->facts.number == last->facts.number + 1;
     for (const Finding& finding : checkFrame(*mNow, isNext ? last.get() : nullptr))
-        tell(finding);
+        report(finding);
     std::swap(last, mNow);
     if (!mNow)
         mNow = std::make_unique<CheckedFrame>();
@@ -303,13 +303,13 @@ void HostChecker::finishAll() {
         finish(frame);
 }
 
-void HostChecker::tell(const Finding& finding) {
-    uint64_t& told = mTold[size_t(finding.kind)];
-    if (told != 0 && mEvaluated - told < kQuietFrames)
+void HostChecker::report(const Finding& finding) {
+    uint64_t& reported = mReported[size_t(finding.kind)];
+    if (reported != 0 && mEvaluated - reported < kQuietFrames)
         return;
-    if (told != 0 && finding.kind == CheckKind::LeftOut)
+    if (reported != 0 && finding.kind == CheckKind::LeftOut)
         return;
-    told = mEvaluated;
+    reported = mEvaluated;
     if (mMessage)
         mMessage("motion blur check: " + finding.sentence);
 }

@@ -68,7 +68,7 @@ class HostChecker {
         bool isPending = false;
     };
 
-    void tell(const Finding& finding);
+    void report(const Finding& finding);
 
     gpu::Device& mDevice;
     HostMessage mMessage;
@@ -82,17 +82,17 @@ class HostChecker {
     std::unique_ptr<CheckedFrame> mNow;               ///< is filled and becomes the last one
     uint32_t mSerial = 0;
     uint64_t mEvaluated = 0;
-    std::array<uint64_t, size_t(CheckKind::Count)> mTold{}; ///< evaluation that reported it; 0:
-                                                            ///< never
+    std::array<uint64_t, size_t(CheckKind::Count)> mReported{}; ///< evaluation that reported it; 0:
+                                                                ///< never
 };
 
-class HostUnsaid {
+class HostUndeclared {
   public:
     /// \param device of the host's images
-    explicit HostUnsaid(VkDevice device) : mDevice(device) {}
+    explicit HostUndeclared(VkDevice device) : mDevice(device) {}
 
     /// Reports images with unknown usage or sample count, each once.
-    void ask(const HostInputs& inputs, const HostMessage& message);
+    void report(const HostInputs& inputs, const HostMessage& message);
 
   private:
     VkDevice mDevice;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares deformedMotion with motion vectors for pixels of deforming entities: from shutter open
 // to close both must agree.
-#include "modules/motion_blur/embedding/check/reading.h"
+#include "modules/motion_blur/embedding/check/hypothesis.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ namespace {
 using math::dvec2;
 using math::dvec4;
 
-constexpr size_t kLeastDeformed = 24; ///< minimum number of samples for a finding
-constexpr double kLeastMotionPx = 1.0;
+constexpr size_t kMinDeformed = 24; ///< minimum number of samples for a finding
+constexpr double kMinMotionPx = 1.0;
 constexpr double kDeformedTolerancePx = 0.5;
 constexpr double kDeformedToleranceShare =
     0.25; ///< vectors of a frame are not quite the exposure's
@@ -31,7 +31,7 @@ struct DeformedSample {
 };
 
 /// A hypothesis about the host's convention.
-struct DeformedGuess {
+struct DeformedHypothesis {
     const char* sentence;
     dvec2 (*way)(const DeformedSample& sample, const CheckFacts& facts);
 };
@@ -41,30 +41,30 @@ dvec2 pictureSize(const CheckFacts& facts) {
 }
 
 constexpr std::array kGuesses{
-    DeformedGuess{
+    DeformedHypothesis{
         "shutter open and close are exchanged, or displacements point the other way",
         [](const DeformedSample& sample, const CheckFacts&) { return -sample.way(); }},
-    DeformedGuess{
+    DeformedHypothesis{
         "y points up",
         [](const DeformedSample& sample, const CheckFacts&) {
             return dvec2(1.0, -1.0) * sample.way();
         }},
-    DeformedGuess{
+    DeformedHypothesis{
         "both are exchanged and y points up",
         [](const DeformedSample& sample, const CheckFacts&) {
             return dvec2(-1.0, 1.0) * sample.way();
         }},
-    DeformedGuess{
+    DeformedHypothesis{
         "displacements are shares of the picture, not pixels",
         [](const DeformedSample& sample, const CheckFacts& facts) {
             return pictureSize(facts) * sample.way();
         }},
-    DeformedGuess{
+    DeformedHypothesis{
         "displacements are in clip space, not pixels",
         [](const DeformedSample& sample, const CheckFacts& facts) {
             return 0.5 * pictureSize(facts) * sample.way();
         }},
-    DeformedGuess{
+    DeformedHypothesis{
         "they are over the time between the frames, not over the exposure",
         [](const DeformedSample& sample, const CheckFacts& facts) {
             const HostScales& scales = facts.convention.scales;
@@ -87,7 +87,7 @@ std::vector<DeformedSample> listSamples(const CheckedFrame& frame) {
         DeformedSample sample{motion * share, dvec4(point.deformed)};
         const dvec2 way = sample.way();
         if (point.id < deforms.size() && deforms[point.id] && std::isfinite(way.x + way.y) &&
-            glm::length(sample.vector) > kLeastMotionPx)
+            glm::length(sample.vector) > kMinMotionPx)
             samples.push_back(sample);
     }
     return samples;
@@ -95,11 +95,13 @@ std::vector<DeformedSample> listSamples(const CheckedFrame& frame) {
 
 /// Share of the samples at which the way is the vector.
 double measureAgreement(
-    const std::vector<DeformedSample>& samples, const CheckFacts& facts, const DeformedGuess& guess
+    const std::vector<DeformedSample>& samples,
+    const CheckFacts& facts,
+    const DeformedHypothesis& candidate
 ) {
     const auto agreeing =
         std::count_if(samples.begin(), samples.end(), [&](const DeformedSample& sample) {
-            return glm::distance(guess.way(sample, facts), sample.vector) <=
+            return glm::distance(candidate.way(sample, facts), sample.vector) <=
                    kDeformedTolerancePx + kDeformedToleranceShare * glm::length(sample.vector);
         });
     return double(agreeing) / double(samples.size());
@@ -108,16 +110,16 @@ double measureAgreement(
 } // namespace
 
 void checkDeformed(const CheckedFrame& now, std::vector<Finding>& findings) {
-    constexpr DeformedGuess kSaid{
+    constexpr DeformedHypothesis kDeclared{
         "", [](const DeformedSample& sample, const CheckFacts&) { return sample.way(); }};
     const CheckFacts& facts = now.facts;
     if (!facts.hasDeformed || !facts.hasVectors || !facts.hasIds ||
         hasFound(findings, {CheckKind::Vectors, CheckKind::IdChanges}))
         return;
     const std::vector<DeformedSample> samples = listSamples(now);
-    if (samples.size() < kLeastDeformed)
+    if (samples.size() < kMinDeformed)
         return;
-    const double agreeing = measureAgreement(samples, facts, kSaid);
+    const double agreeing = measureAgreement(samples, facts, kDeclared);
     if (agreeing >= 0.5)
         return;
     std::string sentence = fmt::format(
@@ -125,9 +127,9 @@ void checkDeformed(const CheckedFrame& now, std::vector<Finding>& findings) {
         facts.isNative ? "motionDepth" : "vectors",
         describeShare(1.0 - agreeing)
     );
-    for (const DeformedGuess& guess : kGuesses)
-        if (measureAgreement(samples, facts, guess) >= 0.8) {
-            sentence += fmt::format(": it would be if {}", guess.sentence);
+    for (const DeformedHypothesis& candidate : kGuesses)
+        if (measureAgreement(samples, facts, candidate) >= 0.8) {
+            sentence += fmt::format(": it would be if {}", candidate.sentence);
             break;
         }
     findings.push_back({CheckKind::Deformed, sentence});

@@ -17,7 +17,7 @@ namespace {
 
 /// Movers whose matrices are held against their pixels, and ids that are compared: copies of a
 /// megabyte or so.
-constexpr size_t kMostMovers = 4096;
+constexpr size_t kMaxMovers = 4096;
 
 /// A pair of cameras with -Z forward.
 HostCameras makePair(const HostCamera& now, const HostCamera& before) {
@@ -69,7 +69,7 @@ void keepMovers(const HostMotion& motion, CheckFacts& facts) {
         if (given.worldFromObject.size() != facts.keys.size())
             continue;
         findOrigin(given.worldFromObject[facts.rasterKey], facts, mover);
-        if (facts.movers.size() > kMostMovers)
+        if (facts.movers.size() > kMaxMovers)
             continue;
         mover.firstMatrix = facts.matrices.size();
         facts.matrices.insert(

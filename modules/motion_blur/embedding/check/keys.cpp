@@ -132,7 +132,7 @@ std::string describeShareOff(double keyShare, double share) {
         return fmt::format(
             "keys go over the whole time between the frames in the exposure, of which it is "
             "{:.3g} by exposureShare: give the camera at shutter open, or the frame before at the "
-            "time that shutterBlurGetTimeBefore() tells",
+            "time that shutterBlurGetTimeBefore() returns",
             share
         );
     return fmt::format(
@@ -151,12 +151,12 @@ void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>
     const auto camera = findCamera(facts, false);
     if (facts.keys.empty() || !camera)
         return;
-    const auto tell = [&](std::string sentence) {
+    const auto report = [&](std::string sentence) {
         findings.push_back({CheckKind::Keys, std::move(sentence)});
     };
     const Keys keys(facts, findTypicalMetres(makePoints(now, facts)));
     if (std::string sentence = keys.describeRaster(); !sentence.empty())
-        return tell(std::move(sentence));
+        return report(std::move(sentence));
     // With motionDepth the exposure's share is unknown.
     if (facts.isNative || !(keys.share() > 0.0))
         return;
@@ -169,20 +169,20 @@ void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>
     if (!last || last->keyShare < 0.0)
         return;
     if (std::max(now.keyShare, last->keyShare) < 0.1 * keys.share())
-        return tell(fmt::format(
+        return report(fmt::format(
             "keys do not move in the exposure, although the camera moves {:.3g} px between "
             "the frames: give it at shutter open, too, or the frame before at the time that "
-            "shutterBlurGetTimeBefore() tells",
+            "shutterBlurGetTimeBefore() returns",
             keys.framePx()
         ));
     if (now.areKeysReversed && last->areKeysReversed)
-        return tell("keys run backwards: they go on from cameras.viewFromWorld the way that "
-                    "the camera came; times rise from shutter open to close");
+        return report("keys run backwards: they go on from cameras.viewFromWorld the way that "
+                      "the camera came; times rise from shutter open to close");
     const bool isOff = std::abs(exposure.px - exposure.wantedPx) >
                        std::max(1.5 * kSamePx, 0.25 * exposure.wantedPx);
     // One that speeds up or slows down goes another share in each frame.
     if (isOff && std::abs(now.keyShare - last->keyShare) < 0.1 * now.keyShare)
-        tell(describeShareOff(now.keyShare, keys.share()));
+        report(describeShareOff(now.keyShare, keys.share()));
 }
 
 } // namespace shutter::motion_blur

@@ -67,13 +67,14 @@ std::optional<uint32_t> FineGrid::findId(const dvec2& place) const {
     return isOne ? std::optional(id) : std::nullopt;
 }
 
-FineDepth::FineDepth(const CheckedFrame& frame, const CheckFacts& said)
+FineDepth::FineDepth(const CheckedFrame& frame, const CheckFacts& declared)
     : mGrid(frame), mLinear(shader::kCheckFinePixels) {
-    const shader::PrepareTable table = makePrepareTable(said.convention, said.picture);
+    const shader::PrepareTable table = makePrepareTable(declared.convention, declared.picture);
     mIsPerspective = (table.flags & shader::kPreparePerspective) != 0;
     for (size_t i = 0; i < mLinear.size(); ++i) {
         const float depth = frame.totals.fineDepths[i];
-        const double metres = shader::metresOfDepth(table, said.flipsDepth ? 1.0f - depth : depth);
+        const double metres =
+            shader::metresOfDepth(table, declared.flipsDepth ? 1.0f - depth : depth);
         mLinear[i] = mIsPerspective ? 1.0 / metres : metres;
     }
 }

@@ -42,8 +42,8 @@ class FineGrid {
 /// Depth of a frame, decoded by the host's declarations.
 class FineDepth {
   public:
-    /// \param said the declarations for `frame`
-    FineDepth(const CheckedFrame& frame, const CheckFacts& said);
+    /// \param declared the declarations for `frame`
+    FineDepth(const CheckedFrame& frame, const CheckFacts& declared);
 
     /// Whether the surface that is seen at the place has that depth: to a pixel, or two percent.
     [[nodiscard]] Match compare(const math::dvec2& place, double metres) const;

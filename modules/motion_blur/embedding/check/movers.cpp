@@ -24,10 +24,10 @@ using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 
-constexpr size_t kLeastSamples = 8;
+constexpr size_t kMinSamples = 8;
 constexpr double kMoverTolerancePx = 0.5;
 constexpr double kMoverToleranceShare =
-    0.25; ///< of the own motion: paths are not straight, nor even
+    0.25; ///< of the expected motion: paths are not straight, nor even
 
 /// Two times between which motion is given, with their cameras.
 struct Span {
@@ -150,9 +150,10 @@ class MoverFrame {
         const auto to = see(mSpan.toCamera, dvec3(move.to * dvec4(sample.world, 1.0)));
         if (!from || !to || !std::isfinite(from->place.x + to->place.x))
             return Match::Other;
-        const double own = glm::length(sample.motion - sample.camera);
+        const double expected = glm::length(sample.motion - sample.camera);
         const double off = glm::length(to->place - from->place - sample.motion);
-        return off <= kMoverTolerancePx + kMoverToleranceShare * own ? Match::Same : Match::Other;
+        return off <= kMoverTolerancePx + kMoverToleranceShare * expected ? Match::Same
+                                                                          : Match::Other;
     }
 
     /// Compares the samples' vectors with the matrices.
@@ -204,17 +205,17 @@ size_t count(const Matches& matches, Match one) {
     return size_t(std::count(matches.begin(), matches.end(), one));
 }
 
-/// Whether a guess explains samples that the host's own words do not.
-bool isBetter(const Matches& said, const Matches& guess) {
+/// Whether a candidate explains samples that the host's expected words do not.
+bool isBetter(const Matches& declared, const Matches& candidate) {
     size_t won = 0;
     size_t lost = 0;
-    for (size_t i = 0; i < said.size(); ++i) {
-        won += guess[i] == Match::Same && said[i] == Match::Other;
-        lost += guess[i] == Match::Other && said[i] == Match::Same;
+    for (size_t i = 0; i < declared.size(); ++i) {
+        won += candidate[i] == Match::Same && declared[i] == Match::Other;
+        lost += candidate[i] == Match::Other && declared[i] == Match::Same;
     }
-    const size_t same = count(guess, Match::Same);
-    return won >= std::max(kLeastSamples, said.size() / 5) && won >= 4 * lost &&
-           10 * same >= 6 * (same + count(guess, Match::Other));
+    const size_t same = count(candidate, Match::Same);
+    return won >= std::max(kMinSamples, declared.size() / 5) && won >= 4 * lost &&
+           10 * same >= 6 * (same + count(candidate, Match::Other));
 }
 
 class MoverCheck {
@@ -229,15 +230,15 @@ class MoverCheck {
     }
 
     [[nodiscard]] std::optional<std::string> findMistake() {
-        if (mFrame.samples.size() < kLeastSamples || (!hasVectors() && !mLastDepth))
+        if (mFrame.samples.size() < kMinSamples || (!hasVectors() && !mLastDepth))
             return std::nullopt;
-        const Matches said = judge({});
+        const Matches declared = judge({});
         // What stops between the frames may be static in all of the exposure, once.
         const bool areTheSame = mFrame.areTheSame() && mLast && mLast->areTheSame();
-        if (areTheSame && (count(said, Match::Other) >= share(4) || movesSinceLast()))
+        if (areTheSame && (count(declared, Match::Other) >= share(4) || movesSinceLast()))
             return describe("the same at all keys, although the row moves in the picture: "
                             "give it at each key's time");
-        if (count(said, Match::Other) < share(4))
+        if (count(declared, Match::Other) < share(4))
             return std::nullopt;
         const auto& keys = mFrame.facts().keys;
         const auto invert = [](const dmat4& given, size_t) { return glm::inverse(given); };
@@ -246,19 +247,19 @@ class MoverCheck {
         };
         const Matches inverted = judge(invert);
         const Matches inWorld = judge(leaveView);
-        const bool isInView =
-            isBetter(said, inWorld) && count(inWorld, Match::Same) >= count(inverted, Match::Same);
+        const bool isInView = isBetter(declared, inWorld) &&
+                              count(inWorld, Match::Same) >= count(inverted, Match::Same);
         if (isInView)
             return describe("in view space, as the row's pixels show: leave viewFromWorld out of it"
             );
-        if (isBetter(said, inverted))
+        if (isBetter(declared, inverted))
             return describe(
                 "inverted (object from world), as the row's pixels show: give its inverse"
             );
         if (areLate())
             return describe("that of the frame before, whose vectors it explains: give this frame's"
             );
-        return describeRest(said);
+        return describeRest(declared);
     }
 
   private:
@@ -266,7 +267,7 @@ class MoverCheck {
 
     /// A part of the samples, and enough of them.
     [[nodiscard]] size_t share(size_t parts) const {
-        return std::max(kLeastSamples, mFrame.samples.size() / parts);
+        return std::max(kMinSamples, mFrame.samples.size() / parts);
     }
 
     [[nodiscard]] Matches judge(const MoverFrame::Change& change) const {
@@ -335,7 +336,7 @@ class MoverCheck {
             if (mover != movers.end())
                 matches.push_back(mLast->compareVector(sample, mFrame.findMove(*mover)));
         }
-        return matches.size() >= kLeastSamples &&
+        return matches.size() >= kMinSamples &&
                10 * count(matches, Match::Same) >= 8 * matches.size();
     }
 
@@ -346,23 +347,23 @@ class MoverCheck {
         );
     }
 
-    [[nodiscard]] std::optional<std::string> describeRest(const Matches& said) const {
+    [[nodiscard]] std::optional<std::string> describeRest(const Matches& declared) const {
         const auto areOff = [](const Matches& matches, size_t tenths) {
             return 10 * count(matches, Match::Other) >= tenths * matches.size();
         };
         // Acceleration causes mismatches in single frames, and fast rotation at the rim.
         const bool lasts = hasVectors() && mLast && mLast->facts().hasVectors &&
-                           mLast->samples.size() >= kLeastSamples &&
+                           mLast->samples.size() >= kMinSamples &&
                            areOff(mLast->compareVectors(), 7);
-        if (hasVectors() ? !lasts || !areOff(said, 7) : !areOff(said, 8))
+        if (hasVectors() ? !lasts || !areOff(declared, 7) : !areOff(declared, 8))
             return std::nullopt;
         return fmt::format(
             "movers' worldFromObject do not agree with {} at {} of the {} samples that show "
             "them, as at row {}: see that they are world from object at each key's time, of this "
             "frame, and that ShutterBlurMover::row is the value in entityId",
             hasVectors() ? "the vectors" : "where the last frame shows them",
-            describeShare(double(count(said, Match::Other)) / double(said.size())),
-            said.size(),
+            describeShare(double(count(declared, Match::Other)) / double(declared.size())),
+            declared.size(),
             mFrame.samples.front().row
         );
     }

@@ -2,8 +2,8 @@
 // Checks cameras against the last frame's depth, for a host without motion vectors: at the
 // reprojected places of this frame's surfaces, that frame must show surfaces at their depth. As
 // with vectors (vectors.cpp), possible mistakes are tried one at a time.
+#include "modules/motion_blur/embedding/check/hypothesis.h"
 #include "modules/motion_blur/embedding/check/last_frame.h"
-#include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
 
@@ -19,9 +19,9 @@ namespace {
 using math::dmat4;
 using math::dvec2;
 
-constexpr size_t kLeastKnown = 200;  ///< minimum number of samples for a finding
-constexpr size_t kLeastTelling = 48; ///< samples that a mistake explains
-constexpr size_t kLensStride = 3;    ///< of the samples that a lens is fitted to
+constexpr size_t kMinKnown = 200;      ///< minimum number of samples for a finding
+constexpr size_t kMinInformative = 48; ///< samples that a mistake explains
+constexpr size_t kLensStride = 3;      ///< of the samples that a lens is fitted to
 
 /// What of a frame's samples is found in the last one.
 struct Found {
@@ -34,7 +34,7 @@ struct Found {
 };
 
 /// The frames as the host declared them, or a hypothesis.
-struct Said {
+struct Declared {
     CheckFacts now;
     CheckFacts last;
 };
@@ -42,8 +42,8 @@ struct Said {
 class Reprojection {
   public:
     Reprojection(const CheckedFrame& now, const CheckedFrame& last)
-        : mNow(now), mLast(last), mIsMover(markMovers(now.facts)), mSaid{now.facts, last.facts},
-          mFound(reproject(mSaid)) {}
+        : mNow(now), mLast(last), mIsMover(markMovers(now.facts)), mDeclared{now.facts, last.facts},
+          mFound(reproject(mDeclared)) {}
 
     [[nodiscard]] std::optional<Finding> findMistake() {
         // Usually, less leaves the view in a frame than stays in it.
@@ -51,7 +51,7 @@ class Reprojection {
             std::replace(
                 mFound.matches.begin(), mFound.matches.end(), Match::Unknown, Match::Other
             );
-        else if (mFound.known() < kLeastKnown || 20 * mFound.other <= mFound.known())
+        else if (mFound.known() < kMinKnown || 20 * mFound.other <= mFound.known())
             return std::nullopt;
         tryCameras();
         tryDepth();
@@ -63,10 +63,10 @@ class Reprojection {
     }
 
   private:
-    [[nodiscard]] Found reproject(const Said& said, size_t stride = 1) const {
-        const FineDepth depth(mLast, said.last);
-        const std::vector<CheckPoint> points = makePoints(mNow, said.now);
-        const VkExtent2D size = said.now.picture;
+    [[nodiscard]] Found reproject(const Declared& declared, size_t stride = 1) const {
+        const FineDepth depth(mLast, declared.last);
+        const std::vector<CheckPoint> points = makePoints(mNow, declared.now);
+        const VkExtent2D size = declared.now.picture;
         Found found;
         for (size_t i = 0; i < points.size(); i += stride) {
             const CheckPoint& point = points[i];
@@ -88,15 +88,15 @@ class Reprojection {
 
     /// Accepts a hypothesis that explains samples which the declaration does not, and loses hardly
     /// any.
-    void consider(const Said& guess, const std::string& sentence) {
-        const Found found = reproject(guess);
+    void consider(const Declared& candidate, const std::string& sentence) {
+        const Found found = reproject(candidate);
         size_t won = 0;
         size_t lost = 0;
         for (size_t i = 0; i < found.matches.size(); ++i) {
             won += found.matches[i] == Match::Same && mFound.matches[i] == Match::Other;
             lost += found.matches[i] == Match::Other && mFound.matches[i] == Match::Same;
         }
-        const bool isBetter = won >= std::max(kLeastTelling, mFound.known() / 20) &&
+        const bool isBetter = won >= std::max(kMinInformative, mFound.known() / 20) &&
                               won >= 6 * lost && 10 * found.same >= 7 * found.known() &&
                               2 * found.known() >= mFound.known();
         if (!isBetter || (mBest && *mBest >= found.same))
@@ -106,29 +106,29 @@ class Reprojection {
     }
 
     void tryCameras() {
-        Said guess = mSaid;
-        HostCameras& cameras = guess.now.convention.cameras;
+        Declared candidate = mDeclared;
+        HostCameras& cameras = candidate.now.convention.cameras;
         for (dmat4* view : {&cameras.viewFromWorld, &cameras.viewFromWorldBefore})
             *view = glm::inverse(*view);
         consider(
-            guess,
+            candidate,
             "the inverse of cameras.viewFromWorld: it holds the camera's own place (world from "
             "view); give its inverse, and that of viewFromWorldBefore"
         );
         consider(
-            {scaleLens(mSaid.now, {1.0, -1.0}), mSaid.last},
+            {scaleLens(mDeclared.now, {1.0, -1.0}), mDeclared.last},
             "the cameras after the second row of cameras.clipFromView is negated: y = -1 must be "
             "the top of the picture; negate the row of clipFromViewBefore, too"
         );
     }
 
     void tryDepth() {
-        const HostDepth& depth = mSaid.now.convention.depth;
+        const HostDepth& depth = mDeclared.now.convention.depth;
         const auto change = [&](const auto& apply) {
-            Said guess = mSaid;
-            apply(guess.now);
-            apply(guess.last);
-            return guess;
+            Declared candidate = mDeclared;
+            apply(candidate.now);
+            apply(candidate.last);
+            return candidate;
         };
         const auto interpret = [&](bool isLinear) {
             return change([&](CheckFacts& facts) {
@@ -166,26 +166,27 @@ class Reprojection {
 
     void tryLens() {
         const dvec2 scale = fitLens([&](const dvec2& tried) {
-            const Found found = reproject({scaleLens(mSaid.now, tried), mSaid.last}, kLensStride);
+            const Found found =
+                reproject({scaleLens(mDeclared.now, tried), mDeclared.last}, kLensStride);
             return -double(found.same);
         });
         consider(
-            {scaleLens(mSaid.now, scale), mSaid.last},
-            "the cameras if " + describeLens(mSaid.now, scale) +
+            {scaleLens(mDeclared.now, scale), mDeclared.last},
+            "the cameras if " + describeLens(mDeclared.now, scale) +
                 ": set it, and clipFromViewBefore's, to what the picture was drawn with"
         );
     }
 
     /// Where movers are listed, all else is static by the host's own word.
     [[nodiscard]] std::optional<Finding> describeRest() const {
-        const bool isSaid = mNow.facts.readsMotion && mNow.facts.hasIds;
-        const size_t least = isSaid ? 4 : 7; // tenths
-        if (mFound.known() < kLeastKnown || 10 * mFound.other < least * mFound.known())
+        const bool hasMotionInputs = mNow.facts.readsMotion && mNow.facts.hasIds;
+        const size_t least = hasMotionInputs ? 4 : 7; // tenths
+        if (mFound.known() < kMinKnown || 10 * mFound.other < least * mFound.known())
             return std::nullopt;
         return Finding{
             CheckKind::Unexplained,
             fmt::format(
-                "by the last frame's depth, {} of what is static is not where "
+                "by the last frame's depth, {} of static surfaces is not where "
                 "cameras "
                 "say, and no single mistake explains it: hold viewFromWorld, viewFromWorldBefore, "
                 "clipFromView and depth against what the picture was drawn with",
@@ -196,7 +197,7 @@ class Reprojection {
     const CheckedFrame& mNow;
     const CheckedFrame& mLast;
     std::vector<bool> mIsMover;
-    Said mSaid;
+    Declared mDeclared;
     Found mFound;
     std::optional<size_t> mBest;
     std::string mSentence;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Residual between vectors and cameras on static surfaces: the same everywhere, as from jitter, or
 // not explained by any known mistake.
-#include "modules/motion_blur/embedding/check/reading.h"
+#include "modules/motion_blur/embedding/check/hypothesis.h"
 
 #include <fmt/format.h>
 
@@ -16,14 +16,14 @@ namespace {
 using math::dvec2;
 
 /// The offset shared by nearly all static surfaces, beyond camera motion.
-std::optional<dvec2> findOffset(const Reading& said) {
+std::optional<dvec2> findOffset(const Hypothesis& declared) {
     std::vector<double> xs;
     std::vector<double> ys;
     size_t count = 0;
-    for (const CheckPoint& point : said.points) {
-        const dvec2 off = said.differenceOf(point);
+    for (const CheckPoint& point : declared.points) {
+        const dvec2 off = declared.differenceOf(point);
         // Half floats hold longer vectors too coarsely.
-        if (point.isSky || glm::length(said.cameraOf(point)) > 48.0)
+        if (point.isSky || glm::length(declared.cameraOf(point)) > 48.0)
             continue;
         ++count;
         if (glm::length(off) < 2.5) {
@@ -31,7 +31,7 @@ std::optional<dvec2> findOffset(const Reading& said) {
             ys.push_back(off.y);
         }
     }
-    const size_t least = std::max(kLeastPoints, count * 6 / 10);
+    const size_t least = std::max(kMinPoints, count * 6 / 10);
     const auto x = takeMedian(xs, least);
     const auto y = takeMedian(ys, least);
     if (!x || !y)
@@ -39,9 +39,9 @@ std::optional<dvec2> findOffset(const Reading& said) {
     const dvec2 offset(*x, *y);
     const double tolerance = 0.02 + 0.12 * glm::length(offset);
     size_t near = 0;
-    for (const CheckPoint& point : said.points)
-        near += !point.isSky && glm::length(said.cameraOf(point)) <= 48.0 &&
-                glm::length(said.differenceOf(point) - offset) <= tolerance;
+    for (const CheckPoint& point : declared.points)
+        near += !point.isSky && glm::length(declared.cameraOf(point)) <= 48.0 &&
+                glm::length(declared.differenceOf(point) - offset) <= tolerance;
     return 10 * near >= 6 * count ? std::optional(offset) : std::nullopt;
 }
 
@@ -52,9 +52,12 @@ bool isOffsetNear(const dvec2& offset, const dvec2& wanted) {
 } // namespace
 
 void checkOffset(
-    CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
+    CheckedFrame& now,
+    const CheckedFrame* last,
+    const Hypothesis& declared,
+    std::vector<Finding>& findings
 ) {
-    const auto found = findOffset(said);
+    const auto found = findOffset(declared);
     if (!found)
         return;
     now.offsetPx = *found;
@@ -68,40 +71,40 @@ void checkOffset(
     const dvec2 jitter = cameras.jitterPxBefore - cameras.jitterPx;
     const bool isDeclared = glm::length(jitter) >= 0.1;
     const dvec2 signY(1.0, -1.0);
-    const auto tell = [&](std::string sentence) {
+    const auto report = [&](std::string sentence) {
         findings.push_back({CheckKind::VectorOffset, std::move(sentence)});
     };
     const std::string what = fmt::format(
-        "what is static has ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
+        "static surfaces have ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
     );
     if (!now.facts.isNative && isDeclared && !convention.vectors.haveJitter &&
         isOffsetNear(offset, jitter))
-        return tell(
+        return report(
             what + ", the change of cameras.jitterPx: jitter is left in the vectors, set "
                    "vectorsHaveJitter = true"
         );
     if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
         isOffsetNear(offset, -jitter))
-        return tell(
+        return report(
             what + ", the change of cameras.jitterPx: the vectors have no jitter, set "
                    "vectorsHaveJitter = false"
         );
     if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
         (isOffsetNear(offset, (signY - 1.0) * jitter) ||
          isOffsetNear(offset, (-signY - 1.0) * jitter) || isOffsetNear(offset, -2.0 * jitter)))
-        return tell(
+        return report(
             what + ": cameras.jitterPx and jitterPxBefore have the wrong sign (by how much samples "
                    "lie right and down of the pixels' centres)"
         );
     if (isDeclared && isOffsetNear(offset, -jitter))
-        return tell(
+        return report(
             what + ", the change of cameras.jitterPx: the jitter is in cameras.clipFromView, which "
                    "must be without"
         );
     // Undeclared jitter differs from frame to frame; uniform motion does not.
     if (last && last->hasOffset && glm::length(offset - last->offsetPx) > 0.1 &&
         glm::length(last->offsetPx) < 2.5)
-        tell(
+        report(
             what + ", and another offset in the frame before: is temporal jitter left in the "
                    "vectors? Project both ends without it, or set vectorsHaveJitter and "
                    "cameras.jitterPx"
@@ -112,8 +115,8 @@ namespace {
 
 using math::dvec2;
 
-constexpr double kLeastOffPx = 1.5;
-constexpr double kLeastOffShare = 0.15; ///< of the camera's motion
+constexpr double kMinOffPx = 1.5;
+constexpr double kMinOffShare = 0.15; ///< of the camera's motion
 
 /// What of the picture is static, and how far off its vectors are.
 struct Still {
@@ -122,16 +125,16 @@ struct Still {
     std::vector<double> cameraPx;
 };
 
-Still measure(const Reading& said, const std::vector<bool>& isMover) {
+Still measure(const Hypothesis& declared, const std::vector<bool>& isMover) {
     Still still;
-    for (const CheckPoint& point : said.points) {
+    for (const CheckPoint& point : declared.points) {
         if (point.isSky || (point.id < isMover.size() && isMover[point.id]))
             continue;
         ++still.count;
-        const double camera = glm::length(said.cameraOf(point));
-        const double off = glm::length(said.differenceOf(point));
+        const double camera = glm::length(declared.cameraOf(point));
+        const double off = glm::length(declared.differenceOf(point));
         still.cameraPx.push_back(camera);
-        if (off > kLeastOffPx + kLeastOffShare * camera)
+        if (off > kMinOffPx + kMinOffShare * camera)
             still.offPx.push_back(off);
     }
     return still;
@@ -146,16 +149,17 @@ void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings) {
         return;
     // Where movers are listed, all else is static by the host's own word. Elsewhere a cockpit
     // may fill the picture, or a crowd, whose vectors are no camera's.
-    const bool isSaid = facts.readsMotion && facts.hasIds;
-    Still still = measure(readSaid(now), isSaid ? markMovers(facts) : std::vector<bool>());
+    const bool hasMotionInputs = facts.readsMotion && facts.hasIds;
+    Still still =
+        measure(readDeclared(now), hasMotionInputs ? markMovers(facts) : std::vector<bool>());
     const double share = double(still.offPx.size()) / double(std::max<size_t>(still.count, 1));
-    const auto camera = takeMedian(still.cameraPx, kLeastPoints);
-    if (!camera || share < (isSaid ? 0.25 : 0.9) || (!isSaid && *camera < 4.0))
+    const auto camera = takeMedian(still.cameraPx, kMinPoints);
+    if (!camera || share < (hasMotionInputs ? 0.25 : 0.9) || (!hasMotionInputs && *camera < 4.0))
         return;
     findings.push_back(
         {CheckKind::Unexplained,
          fmt::format(
-             "vectors are {:.3g} px off from what the cameras imply at {} of what is static, "
+             "vectors are {:.3g} px off from what the cameras imply at {} of static surfaces, "
              "and no single mistake explains it: hold {}, clipFromView, depth and {} against what "
              "the picture was drawn with",
              takeMedian(still.offPx, 1).value_or(0.0),

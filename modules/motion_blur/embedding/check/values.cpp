@@ -17,7 +17,7 @@ namespace shutter::motion_blur {
 namespace {
 
 /// Minimum number of pixels for a finding; closing windows may have fewer.
-constexpr uint64_t kLeastPixels = 64;
+constexpr uint64_t kMinPixels = 64;
 
 uint32_t countOf(const CheckedFrame& frame, uint32_t index) {
     return frame.totals.counts[index];
@@ -154,7 +154,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
             ));
     if (!depth.isLinear && depth.image.format == VK_FORMAT_R16_SFLOAT)
         add(CheckKind::DepthPrecision,
-            "depth is R16_SFLOAT with raw depth, which tells 2048 distances apart "
+            "depth is R16_SFLOAT with raw depth, which resolves 2048 distances "
             "at the far end; use the depth buffer itself, or linear depth");
 }
 
@@ -188,10 +188,11 @@ void checkSky(const CheckedFrame& now, std::vector<Finding>& findings) {
 /// The sky where the camera has its near plane.
 void checkSkyEnd(const CheckFacts& facts, bool isReversed, std::vector<Finding>& findings) {
     const float skyValue = facts.convention.depth.skyValue;
-    const bool isTold = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
-        return finding.kind == CheckKind::DepthSky;
-    });
-    if (skyValue != (isReversed ? 1.0f : 0.0f) || isTold)
+    const bool isReported =
+        std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+            return finding.kind == CheckKind::DepthSky;
+        });
+    if (skyValue != (isReversed ? 1.0f : 0.0f) || isReported)
         return;
     findings.push_back(
         {CheckKind::DepthSky,
@@ -234,7 +235,7 @@ void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings) {
     const shader::CheckTotals& totals = now.totals;
     const bool isSky = shareOf(now, shader::kCheckDepthSky) > 0.999;
     const VkExtent2D size = now.facts.picture;
-    if (totals.depthLeast != totals.depthMost || uint64_t(size.width) * size.height < kLeastPixels)
+    if (totals.depthLeast != totals.depthMost || uint64_t(size.width) * size.height < kMinPixels)
         return;
     // A picture of the sky alone is one depth by right.
     if (isSky && (!now.facts.hasIds || shareOf(now, shader::kCheckIdNone) > 0.99))

@@ -2,7 +2,7 @@
 // Checks motion vectors against the motion that the cameras imply for static surfaces. Possible
 // mistakes are tried one at a time, and reported if the vectors agree with the cameras under that
 // hypothesis and not without it. Movers agree with neither and so do not count.
-#include "modules/motion_blur/embedding/check/reading.h"
+#include "modules/motion_blur/embedding/check/hypothesis.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::optional<double> fitScale(const std::vector<CheckPoint>& points, int axis) 
         if (!point.isSky && std::abs(point.camera[axis]) > 1.0 &&
             std::abs(point.motion[axis]) > 1.0e-9)
             ratios.push_back(point.camera[axis] / point.motion[axis]);
-    return takeMedian(ratios, kLeastTelling);
+    return takeMedian(ratios, kMinInformative);
 }
 
 bool isNear(double value, double wanted) {
@@ -56,8 +56,8 @@ std::string describeFactors(const dvec2& factors) {
 /// Collects hypotheses.
 class Guesses {
   public:
-    Guesses(const CheckedFrame& now, const CheckedFrame* last, Reading said)
-        : mNow(now), mLast(last), mFacts(now.facts), mSaid(std::move(said)) {}
+    Guesses(const CheckedFrame& now, const CheckedFrame* last, Hypothesis declared)
+        : mNow(now), mLast(last), mFacts(now.facts), mDeclared(std::move(declared)) {}
 
     [[nodiscard]] std::optional<std::string> findMistake() {
         tryUnits();
@@ -74,41 +74,41 @@ class Guesses {
     }
 
   private:
-    void consider(const Reading& said, const Reading& guess) {
-        const auto explained = judge(said, guess);
+    void consider(const Hypothesis& declared, const Hypothesis& candidate) {
+        const auto explained = judge(declared, candidate);
         if (!explained)
             return;
         // The first of what explains as much: they come in the order of how often hosts do so.
-        const size_t apart = guess.points.size() / 33;
+        const size_t apart = candidate.points.size() / 33;
         if (mBest && *explained <= *mBest + apart) {
-            if (guess.isAlternative && *explained + apart >= *mBest)
-                mSentence += "; or " + guess.sentence;
+            if (candidate.isAlternative && *explained + apart >= *mBest)
+                mSentence += "; or " + candidate.sentence;
             return;
         }
         mBest = explained;
-        mSentence = guess.sentence;
+        mSentence = candidate.sentence;
     }
 
-    void consider(const Reading& guess) { consider(mSaid, guess); }
+    void consider(const Hypothesis& candidate) { consider(mDeclared, candidate); }
 
     void tryCamera() {
-        if (mFacts.isNative || (mSaid.haveCamera && !areZero()))
+        if (mFacts.isNative || (mDeclared.haveCamera && !areZero()))
             return;
-        Reading guess = mSaid;
-        guess.haveCamera = !mSaid.haveCamera;
-        guess.sentence =
-            mSaid.haveCamera
+        Hypothesis candidate = mDeclared;
+        candidate.haveCamera = !mDeclared.haveCamera;
+        candidate.sentence =
+            mDeclared.haveCamera
                 ? "vectors are 0 where things are static although the camera moves: the camera's "
                   "part is not in them, set vectorsLackCamera = true"
                 : "vectors hold the camera's part already: set vectorsLackCamera = false";
-        consider(guess);
+        consider(candidate);
     }
 
     /// Whether most vectors are none at all, and not short ones, where the camera's are long.
     [[nodiscard]] bool areZero() const {
         size_t count = 0;
         size_t zero = 0;
-        for (const CheckPoint& point : mSaid.points) {
+        for (const CheckPoint& point : mDeclared.points) {
             const double camera = glm::length(point.camera);
             if (point.isSky || camera < 1.0)
                 continue;
@@ -120,7 +120,7 @@ class Guesses {
 
     /// Units that hosts have, either way in time, y down or up.
     void tryUnits() {
-        if (!mSaid.haveCamera)
+        if (!mDeclared.haveCamera)
             return;
         forEachUnit([&](const Unit& unit, const dvec2& sign) {
             considerScale(
@@ -147,10 +147,10 @@ class Guesses {
     }
 
     void considerScale(const dvec2& factors, const std::string& unit) {
-        Reading guess = mSaid;
-        guess.scale = factors;
+        Hypothesis candidate = mDeclared;
+        candidate.scale = factors;
         const dvec2 pixels = factors * dvec2(mFacts.convention.vectors.pixelsPerUnit);
-        guess.sentence =
+        candidate.sentence =
             mFacts.isNative
                 ? fmt::format(
                       "motionDepth agrees with the cameras after {}{}: it must hold pixels, right "
@@ -169,37 +169,37 @@ class Guesses {
                       pixels.x,
                       pixels.y
                   );
-        consider(guess);
+        consider(candidate);
     }
 
     void tryExposure() {
         const double share = mFacts.convention.scales.exposureShare;
-        if (mFacts.isNative || !mSaid.haveCamera || !(share > 0.0))
+        if (mFacts.isNative || !mDeclared.haveCamera || !(share > 0.0))
             return;
-        Reading guess = mSaid;
-        guess.scale = dvec2(1.0 / share);
-        guess.sentence = fmt::format(
+        Hypothesis candidate = mDeclared;
+        candidate.scale = dvec2(1.0 / share);
+        candidate.sentence = fmt::format(
             "vectors agree with the cameras after multiplication by {:.4g}, 1 / exposureShare: "
             "they are over the exposure already, set exposureShare = 1, and give the camera "
             "at shutter open as the one before",
             1.0 / share
         );
-        consider(guess);
+        consider(candidate);
     }
 
     /// Any factors. Much may pass for them, such as another frame's motion, so they come last. What
     /// fits one frame by chance, as the vectors of a shape that grows do, does not fit the one
     /// before by the same factors.
     void tryFactors() {
-        const auto x = fitScale(mSaid.points, 0);
-        const auto y = fitScale(mSaid.points, 1);
-        if (!mLast || !mSaid.haveCamera || !(x || y))
+        const auto x = fitScale(mDeclared.points, 0);
+        const auto y = fitScale(mDeclared.points, 1);
+        if (!mLast || !mDeclared.haveCamera || !(x || y))
             return;
         const dvec2 factors(x ? *x : *y, y ? *y : *x);
-        const Reading before = readSaid(*mLast);
-        Reading guess = before;
-        guess.scale = factors;
-        if (judge(before, guess))
+        const Hypothesis before = readDeclared(*mLast);
+        Hypothesis candidate = before;
+        candidate.scale = factors;
+        if (judge(before, candidate))
             considerScale(
                 factors,
                 ", as they do where cameras.clipFromView has another field of view or aspect ratio "
@@ -208,23 +208,23 @@ class Guesses {
     }
 
     void trySwap() {
-        if (!mSaid.haveCamera)
+        if (!mDeclared.haveCamera)
             return;
         // Only units that hosts have are tried: two free factors would fit an orthographic camera's
         // motion, which is nearly the same everywhere, whatever is wrong.
         const dvec2 unit(mFacts.convention.vectors.pixelsPerUnit);
         forEachUnit([&](const Unit& meant, const dvec2& sign) {
-            Reading guess = mSaid;
-            guess.isSwapped = true;
+            Hypothesis candidate = mDeclared;
+            candidate.isSwapped = true;
             const dvec2 pixels = sign * meant.pixels;
-            guess.scale = pixels / dvec2(unit.y, unit.x);
-            guess.sentence = fmt::format(
+            candidate.scale = pixels / dvec2(unit.y, unit.x);
+            candidate.sentence = fmt::format(
                 "vectors agree with the cameras after x and y are exchanged: write x to the first "
                 "channel and y to the second, with pixelsPerUnit = ({:.6g}, {:.6g})",
                 pixels.x,
                 pixels.y
             );
-            consider(guess);
+            consider(candidate);
         });
     }
 
@@ -244,32 +244,33 @@ class Guesses {
             "cameras.viewFromWorldBefore is not: set it, and clipFromViewBefore, to last frame's"
         );
         // The last frame's vectors lead to this frame.
-        Reading said = read(*mLast, mLast->facts);
-        considerLastVectors(said);
+        Hypothesis declared = read(*mLast, mLast->facts);
+        considerLastVectors(declared);
         facts = mLast->facts;
         facts.convention.cameras.viewFromWorldBefore = cameras.viewFromWorld;
         facts.convention.cameras.clipFromViewBefore = cameras.clipFromView;
-        Reading guess = read(*mLast, facts);
-        for (CheckPoint& point : guess.points)
+        Hypothesis candidate = read(*mLast, facts);
+        for (CheckPoint& point : candidate.points)
             point.camera = -point.camera;
-        guess.sentence = "vectors lead from this frame to the next one: make them from the frame "
-                         "before, or delay the cameras by a frame";
-        consider(said, guess);
+        candidate.sentence =
+            "vectors lead from this frame to the next one: make them from the frame "
+            "before, or delay the cameras by a frame";
+        consider(declared, candidate);
     }
 
     /// This frame's vectors by the last one's cameras and depth.
-    void considerLastVectors(const Reading& then) {
-        if (then.points.size() != mSaid.points.size())
+    void considerLastVectors(const Hypothesis& then) {
+        if (then.points.size() != mDeclared.points.size())
             return;
-        Reading guess = mSaid;
-        for (size_t i = 0; i < guess.points.size(); ++i) {
-            guess.points[i].camera = then.points[i].camera;
-            guess.points[i].isSky = then.points[i].isSky;
+        Hypothesis candidate = mDeclared;
+        for (size_t i = 0; i < candidate.points.size(); ++i) {
+            candidate.points[i].camera = then.points[i].camera;
+            candidate.points[i].isSky = then.points[i].isSky;
         }
-        guess.sentence =
+        candidate.sentence =
             "vectors are those of the frame before: they agree with last frame's cameras, so read "
             "the image after this frame has written it";
-        consider(guess);
+        consider(candidate);
     }
 
     void tryCameras() {
@@ -293,13 +294,13 @@ class Guesses {
                 (*clip)[column].y = -(*clip)[column].y;
         // Under an orthographic camera all points move alike, so this is indistinguishable from
         // vectors with y up.
-        Reading guess = read(mNow, facts);
-        guess.isAlternative = true;
-        guess.sentence =
+        Hypothesis candidate = read(mNow, facts);
+        candidate.isAlternative = true;
+        candidate.sentence =
             "vectors agree with the cameras after the second row of cameras.clipFromView is "
             "negated: y = -1 must be the top of the picture; negate the row of clipFromViewBefore, "
             "too";
-        consider(guess);
+        consider(candidate);
     }
 
     void tryDepth() {
@@ -345,16 +346,16 @@ class Guesses {
 
     /// Another field of view makes everything that the camera moves longer or shorter.
     void tryLens() {
-        if (!mLast || !mFacts.convention.cameras.areGiven || mFacts.isNative || !mSaid.haveCamera ||
-            countAgreeing(mSaid) * 2 >= mSaid.points.size())
+        if (!mLast || !mFacts.convention.cameras.areGiven || mFacts.isNative ||
+            !mDeclared.haveCamera || countAgreeing(mDeclared) * 2 >= mDeclared.points.size())
             return;
         const math::dvec2 scale = fitLens([&](const dvec2& tried) {
-            const Reading guess = read(mNow, scaleLens(mFacts, tried));
+            const Hypothesis candidate = read(mNow, scaleLens(mFacts, tried));
             std::vector<double> off;
-            for (const CheckPoint& point : guess.points)
+            for (const CheckPoint& point : candidate.points)
                 if (!point.isSky)
-                    off.push_back(glm::length(guess.differenceOf(point)));
-            return takeMedian(off, kLeastPoints).value_or(0.0);
+                    off.push_back(glm::length(candidate.differenceOf(point)));
+            return takeMedian(off, kMinPoints).value_or(0.0);
         });
         considerFacts(
             scaleLens(mFacts, scale),
@@ -364,15 +365,15 @@ class Guesses {
     }
 
     void considerFacts(const CheckFacts& facts, std::string sentence) {
-        Reading guess = read(mNow, facts);
-        guess.sentence = std::move(sentence);
-        consider(guess);
+        Hypothesis candidate = read(mNow, facts);
+        candidate.sentence = std::move(sentence);
+        consider(candidate);
     }
 
     const CheckedFrame& mNow;
     const CheckedFrame* mLast;
     const CheckFacts& mFacts;
-    Reading mSaid;
+    Hypothesis mDeclared;
     std::optional<size_t> mBest;
     std::string mSentence;
 };
@@ -380,11 +381,11 @@ class Guesses {
 } // namespace
 
 void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings) {
-    const Reading said = readSaid(now);
-    if (const auto mistake = Guesses(now, last, said).findMistake())
+    const Hypothesis declared = readDeclared(now);
+    if (const auto mistake = Guesses(now, last, declared).findMistake())
         findings.push_back({CheckKind::Vectors, *mistake});
     else
-        checkOffset(now, last, said, findings);
+        checkOffset(now, last, declared, findings);
 }
 
 } // namespace shutter::motion_blur

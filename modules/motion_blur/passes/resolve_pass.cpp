@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/passes/resolve_pass.h"
 
 #include "spirv/motion_blur/resolved.comp.h"
 #include "spirv/motion_blur/resolved_sort.comp.h"
@@ -80,7 +80,7 @@ float turnOf(int64_t frameNumber) {
 }
 
 /// Initial buffers of the lookup in a frame.
-struct Starts {
+struct InitialBuffers {
     graph::BufferHandle counters;
     ListedPixels listed;
     std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
@@ -89,7 +89,7 @@ struct Starts {
     SortedBlocks blocks;
 };
 
-Starts createStarts(
+InitialBuffers createInitialBuffers(
     graph::Graph& graph,
     const SurfaceLayersOutputs& layers,
     const PassParams& params,
@@ -97,37 +97,37 @@ Starts createStarts(
     const InstantMotions& motions,
     Clears& clears
 ) {
-    Starts starts;
-    starts.counters = graph.createBuffer(
+    InitialBuffers initial;
+    initial.counters = graph.createBuffer(
         "resolved counters", {sizeof(shader::ResolvedCounters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
     );
-    clears.add(starts.counters, 0);
+    clears.add(initial.counters, 0);
     if (listsPixels) {
         const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
-        starts.listed = {
+        initial.listed = {
             // Not cleared: the counters know how many there are.
             graph.createBuffer("listed pixels", {pixels * sizeof(glm::uvec2), kListUsage}),
             graph.createBuffer(
                 "listed pixel arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
             )};
-        clears.addArguments(starts.listed.arguments, 1);
+        clears.addArguments(initial.listed.arguments, 1);
     }
     const auto create = [&](const SurfaceLayer& layer, LayerIndex index) {
         if (!layer.surface.isValid())
             return;
         const auto at = static_cast<size_t>(index);
-        starts.candidates.at(at) = CandidateLists::create(graph, params, clears);
+        initial.candidates.at(at) = CandidateLists::create(graph, params, clears);
         if (motions.deforms.at(at))
-            starts.deforming.at(at) = CandidateLists::createDeforming(graph, params, clears);
+            initial.deforming.at(at) = CandidateLists::createDeforming(graph, params, clears);
     };
     create(layers.raster, LayerIndex::Raster);
     create(layers.second, LayerIndex::Second);
     create(layers.last, LayerIndex::Last);
     if (motions.mayCrowd)
-        starts.crowds = Crowds::create(graph, params, clears);
+        initial.crowds = Crowds::create(graph, params, clears);
     // Blocks of crowded tiles use the list that otherwise holds candidates of the ray mask.
-    starts.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
-    return starts;
+    initial.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
+    return initial;
 }
 
 } // namespace
@@ -154,7 +154,7 @@ void SearchResources::use(graph::PassBuilder& builder) {
           candidates.second,
           candidates.last,
           crowds,
-          looks,
+          blockSamples,
           parts[0],
           parts[1],
           parts[2]})
@@ -182,7 +182,7 @@ gpu::BindingList SearchResources::bind(
         .buffer(resources.buffer(counters));
     for (const graph::ImageHandle color : {layers.raster.color, last.color})
         bindings.sampled(resources.view(color), device.linearSampler());
-    bindings.buffer(bufferOr(looks, counters));
+    bindings.buffer(bufferOr(blockSamples, counters));
     for (const graph::ImageHandle image : {second.color, second.surface})
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.buffer(bufferOr(candidates.second, candidates.raster))
@@ -223,7 +223,7 @@ const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool ha
     return mPipelines.at(bits).get();
 }
 
-LookUp::LookUp(gpu::Device& device, bool listsPixels)
+ResolvePass::ResolvePass(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
       mCrowds(device), mParts(device), mLensFilter(device),
       mSort(
@@ -236,14 +236,14 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
       mRead(
           device,
           "resolved counters",
-          kMostSlots * sizeof(shader::ResolvedCounters),
+          kMaxSlots * sizeof(shader::ResolvedCounters),
           0,
           gpu::MemoryUse::Readback
       ) {
     mRead.writeZeros();
 }
 
-LookUpOutputs LookUp::add(
+ResolvePassOutputs ResolvePass::add(
     graph::Graph& graph,
     const MotionBlurInputs& inputs,
     const MotionBlurSettings& settings,
@@ -264,7 +264,7 @@ LookUpOutputs LookUp::add(
     params.setMethod(own);
     if (!mBlocks.canFind(params))
         params.uniformMotionPx = 0.0f;
-    LookUpOutputs outputs;
+    ResolvePassOutputs outputs;
     SearchResources& search = outputs.search;
     search.layers = mLayers.add(graph, inputs, params, hasLast);
     search.motionDepth = inputs.motionDepth;
@@ -273,21 +273,22 @@ LookUpOutputs LookUp::add(
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
     Clears clears;
-    const Starts starts = createStarts(graph, search.layers, params, mListsPixels, motions, clears);
+    const InitialBuffers initial =
+        createInitialBuffers(graph, search.layers, params, mListsPixels, motions, clears);
     clears.declare(graph);
-    outputs.listed = starts.listed;
+    outputs.listed = initial.listed;
     if (mListsPixels)
-        outputs.listed.arguments = clears.get(starts.listed.arguments);
-    search.counters = clears.get(starts.counters);
+        outputs.listed.arguments = clears.get(initial.listed.arguments);
+    search.counters = clears.get(initial.counters);
     CrowdBuffers crowds;
     if (motions.mayCrowd)
-        crowds = {clears.get(starts.crowds.tiles), clears.get(starts.crowds.arguments)};
+        crowds = {clears.get(initial.crowds.tiles), clears.get(initial.crowds.arguments)};
     const auto list = [&](const SurfaceLayer& layer, LayerIndex index) -> graph::BufferHandle {
         if (!layer.surface.isValid())
             return {};
         const auto at = static_cast<size_t>(index);
-        const DeformingTiles& deforming = starts.deforming.at(at);
-        CandidateInputs given{layer.surface, {}, clears.get(starts.candidates.at(at)), {}, crowds};
+        const DeformingTiles& deforming = initial.deforming.at(at);
+        CandidateInputs given{layer.surface, {}, clears.get(initial.candidates.at(at)), {}, crowds};
         if (index == LayerIndex::Raster)
             given.edgeSurface = inputs.edgeSurface;
         if (deforming.tiles.isValid())
@@ -320,30 +321,30 @@ LookUpOutputs LookUp::add(
     if (motions.mayCrowd)
         search.crowds = mCrowds.add(graph, search.layers, inputs.motionDepth, crowds, params);
     search.candidates = addSort(graph, candidates, params);
-    const BlockLookOutputs looks = mBlocks.addFind(
+    const BlockSampleOutputs blockSamples = mBlocks.addFind(
         graph,
         raster,
         {search.candidates,
          search.parts[static_cast<size_t>(LayerIndex::Raster)],
          search.crowds,
          search.counters},
-        BlockSorter::getEmpty(starts.blocks, clears),
+        BlockSorter::getCleared(initial.blocks, clears),
         params
     );
-    outputs.blocks = looks.blocks;
-    search.counters = looks.counters;
-    search.looks = looks.looks;
+    outputs.blocks = blockSamples.blocks;
+    search.counters = blockSamples.counters;
+    search.blockSamples = blockSamples.blockSamples;
     if (inputs.wantsCounters)
         shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
     const bool readsKept = !(raster.color == inputs.color);
     outputs.stillPixelsBy =
-        readsKept && inputs.mayWriteColor() ? StillPixelsBy::InPlace : shared.stillPixelsBy;
+        readsKept && inputs.mayWriteColor() ? StaticPixelsBy::InPlace : shared.stillPixelsBy;
     outputs.picture =
         shared.stillPixels.begin(graph, inputs.color, inputs.target, outputs.stillPixelsBy);
     // Pixels that may be traced are listed by the search.
     if (!mListsPixels)
         outputs.picture = mBlocks.addResolve(
-            graph, raster, outputs.blocks, search.looks, outputs.picture, params
+            graph, raster, outputs.blocks, search.blockSamples, outputs.picture, params
         );
     addResolve(graph, outputs, false, params);
     if (motions.mayCrowd)
@@ -351,7 +352,7 @@ LookUpOutputs LookUp::add(
     return outputs;
 }
 
-void LookUp::describeInstants(
+void ResolvePass::describeInstants(
     const MotionBlurInputs& inputs, const MotionBlurSettings& settings, shader::ResolvedParams& own
 ) {
     own.instantCount = inputs.instantMotions->instantCount;
@@ -361,11 +362,11 @@ void LookUp::describeInstants(
     if (!mNoise)
         mNoise = makeNoise(mDevice);
     own.noise = gpu::splitAddress(mNoise.address());
-    if (settings.instantNoise == InstantNoise::Turning)
+    if (settings.instantNoise == InstantNoise::PerFrame)
         own.turn = turnOf(inputs.frameNumber);
 }
 
-SortedCandidates LookUp::addSort(
+SortedCandidates ResolvePass::addSort(
     graph::Graph& graph, const SortedCandidates& listed, const PassParams& params
 ) const {
     return graph.addPass<SortedCandidates>(
@@ -389,8 +390,8 @@ SortedCandidates LookUp::addSort(
     );
 }
 
-void LookUp::addResolve(
-    graph::Graph& graph, LookUpOutputs& outputs, bool areCrowded, const PassParams& params
+void ResolvePass::addResolve(
+    graph::Graph& graph, ResolvePassOutputs& outputs, bool areCrowded, const PassParams& params
 ) const {
     struct Data {
         SearchResources search;
@@ -438,14 +439,14 @@ void LookUp::addResolve(
     outputs.picture = pass.picture;
 }
 
-MotionBlurOutputs LookUp::end(
+MotionBlurOutputs ResolvePass::end(
     graph::Graph& graph,
     const MotionBlurInputs& inputs,
-    const LookUpOutputs& found,
+    const ResolvePassOutputs& found,
     const PassParams& params,
     SharedPasses& shared
 ) const {
-    if (inputs.countsOwn())
+    if (inputs.methodCountersEnabled())
         readCounters(graph, found.search.counters, inputs.slot);
     MotionBlurOutputs outputs;
     outputs.color = shared.stillPixels.end(
@@ -467,7 +468,8 @@ MotionBlurOutputs LookUp::end(
     return outputs;
 }
 
-void LookUp::readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const {
+void ResolvePass::readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot)
+    const {
     struct Data {
         graph::BufferHandle source;
         graph::BufferHandle target;
@@ -496,7 +498,7 @@ void LookUp::readCounters(graph::Graph& graph, graph::BufferHandle counters, uin
     );
 }
 
-void LookUp::count(uint32_t slot, Counters& counters) const {
+void ResolvePass::count(uint32_t slot, Counters& counters) const {
     shader::ResolvedCounters counted;
     std::memcpy(
         &counted, static_cast<const char*>(mRead.mapped()) + slot * sizeof(counted), sizeof(counted)

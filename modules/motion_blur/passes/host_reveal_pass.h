@@ -11,11 +11,11 @@ namespace shutter::motion_blur {
 /// Adds the pass in which a host's commands render the background of masked pixels.
 /// \param inputs of which the scene and the slot are ignored
 /// \param own must outlive the graph
-[[nodiscard]] RayRevealOutputs addOwnReveal(
+[[nodiscard]] RayRevealOutputs addHostReveal(
     graph::Graph& graph,
     const gpu::Device& device,
     const RayRevealInputs& inputs,
-    const OwnReveal& own
+    const HostReveal& own
 );
 
 } // namespace shutter::motion_blur

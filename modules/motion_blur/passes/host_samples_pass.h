@@ -4,36 +4,39 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/host_answers.h"
-#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/passes/resolve_pass.h"
 
 namespace shutter::motion_blur {
 
 /// The passes that list samples for a host, record its commands, and merge the answers into the
 /// picture.
-class OwnSamplesPass {
+class HostSamplesPass {
   public:
-    explicit OwnSamplesPass(gpu::Device& device);
+    explicit HostSamplesPass(gpu::Device& device);
 
-    /// \param found of a LookUp that lists pixels; gets the picture with the answers
+    /// \param found of a ResolvePass that lists pixels; gets the picture with the answers
     /// \param params with shader::ResolvedParams whose rayLimit is the maximum number of requested
     /// samples
     /// \param own must outlive the graph
     void
-    add(graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params
-    ) const;
+    add(graph::Graph& graph,
+        const HostSamples& own,
+        ResolvePassOutputs& found,
+        const PassParams& params) const;
 
   private:
     struct Lists;
     struct Searching;
 
     [[nodiscard]] Lists createLists(graph::Graph& graph, const PassParams& params) const;
-    void addList(graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params)
-        const;
+    void addList(
+        graph::Graph& graph, ResolvePassOutputs& found, Lists& lists, const PassParams& params
+    ) const;
     void addAnswer(
-        graph::Graph& graph, const OwnSamples& own, Lists& lists, const PassParams& params
+        graph::Graph& graph, const HostSamples& own, Lists& lists, const PassParams& params
     ) const;
     void addCollect(
-        graph::Graph& graph, LookUpOutputs& found, const Lists& lists, const PassParams& params
+        graph::Graph& graph, ResolvePassOutputs& found, const Lists& lists, const PassParams& params
     ) const;
 
     gpu::Device& mDevice;

@@ -14,13 +14,13 @@
 
 namespace shutter::motion_blur {
 
-inline constexpr size_t kLeastPoints = 96;      ///< minimum number of points for a finding
-inline constexpr size_t kLeastTelling = 48;     ///< points at which a mistake would show
+inline constexpr size_t kMinPoints = 96;        ///< minimum number of points for a finding
+inline constexpr size_t kMinInformative = 48;   ///< points at which a mistake would show
 inline constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
 inline constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
 
 /// What vectors and cameras would be if the host had meant something else.
-struct Reading {
+struct Hypothesis {
     std::vector<CheckPoint> points;
     math::dvec2 scale{1.0}; ///< of the motion
     bool isSwapped = false;
@@ -47,23 +47,26 @@ struct Reading {
 };
 
 /// The frame as declared.
-[[nodiscard]] Reading read(const CheckedFrame& frame, const CheckFacts& facts);
+[[nodiscard]] Hypothesis read(const CheckedFrame& frame, const CheckFacts& facts);
 /// The frame as the host declared it.
-[[nodiscard]] Reading readSaid(const CheckedFrame& frame);
+[[nodiscard]] Hypothesis readDeclared(const CheckedFrame& frame);
 
 /// Number of points that the hypothesis explains; nothing if it is no better than the host's
 /// declaration.
-[[nodiscard]] std::optional<size_t> judge(const Reading& said, const Reading& guess);
+[[nodiscard]] std::optional<size_t> judge(const Hypothesis& declared, const Hypothesis& candidate);
 
 /// Points that are not the sky whose vectors are the camera's.
-[[nodiscard]] size_t countAgreeing(const Reading& reading);
+[[nodiscard]] size_t countAgreeing(const Hypothesis& hypothesis);
 
 /// Nothing: there are fewer than `least`. Changes their order.
 [[nodiscard]] std::optional<double> takeMedian(std::vector<double>& values, size_t least);
 
 /// Checks for an offset shared by all static surfaces, beyond camera motion: jitter.
 void checkOffset(
-    CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
+    CheckedFrame& now,
+    const CheckedFrame* last,
+    const Hypothesis& declared,
+    std::vector<Finding>& findings
 );
 
 /// Factors of the first two rows of both projections that minimise the cost: both by the same, or

@@ -29,27 +29,27 @@ struct TileInputs {
     graph::BufferHandle counters; ///< shader::ResolvedCounters
 };
 
-struct BlockLookOutputs {
+struct BlockSampleOutputs {
     SortedBlocks blocks; ///< kUniformList, kMixedList; of crowded tiles: the candidates
     graph::BufferHandle counters;
-    graph::BufferHandle looks; ///< shader::BlockLook[block]: a head, then one per instant of the
-                               ///< tables; invalid: none is known
+    graph::BufferHandle blockSamples; ///< shader::BlockSample[block]: a head, then one per instant
+                                      ///< of the tables; invalid: none is known
 };
 
-class BlockLooks {
+class BlockSamples {
   public:
     /// \param sortsUniform blocks that see a plane at every instant are in a separate list
-    BlockLooks(gpu::Device& device, bool sortsUniform);
+    BlockSamples(gpu::Device& device, bool sortsUniform);
 
     /// Whether the number of instants and the size of the lookup buffer are within their limits.
     [[nodiscard]] bool canFind(const PassParams& params) const;
 
     /// Sorts the blocks that something moves in.
     /// \param raster this frame's
-    /// \param empty BlockSorter::getEmpty()
+    /// \param empty BlockSorter::getCleared()
     /// \param params with shader::ResolvedParams; uniformMotionPx 0: each pixel searches for
     /// itself, as it must unless canFind()
-    [[nodiscard]] BlockLookOutputs addFind(
+    [[nodiscard]] BlockSampleOutputs addFind(
         graph::Graph& graph,
         const SurfaceLayer& raster,
         const TileInputs& tiles,
@@ -57,13 +57,13 @@ class BlockLooks {
         const PassParams& params
     ) const;
 
-    /// \param looks of addFind()
+    /// \param blockSamples of addFind()
     /// \return target with the uniform blocks written
     [[nodiscard]] graph::ImageHandle addResolve(
         graph::Graph& graph,
         const SurfaceLayer& raster,
         const SortedBlocks& blocks,
-        graph::BufferHandle looks,
+        graph::BufferHandle blockSamples,
         graph::ImageHandle target,
         const PassParams& params
     ) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/still_pixels.h"
+#include "modules/motion_blur/passes/static_pixels.h"
 
 #include "spirv/motion_blur/copy_blocks.comp.h"
 
@@ -22,16 +22,16 @@ findTarget(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle giv
 
 } // namespace
 
-StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
+StaticPixelsBy chooseStaticPixels(double movingShare, StaticPixelsBy last) {
     // The two cost the same where a quarter of the picture moves.
     if (movingShare < 0.2)
-        return StillPixelsBy::CopyBack;
+        return StaticPixelsBy::CopyBack;
     if (movingShare > 0.3)
-        return StillPixelsBy::WholeCopy;
+        return StaticPixelsBy::WholeCopy;
     return last;
 }
 
-StillPixels::StillPixels(gpu::Device& device)
+StaticPixels::StaticPixels(gpu::Device& device)
     : mListsStill(BlockSorter::listsStill(device)),
       mStill(device, shader::kStillList, {"copy still pixels", motion_blur_copy_blocks_comp, 1}),
       mUniform(
@@ -44,27 +44,27 @@ StillPixels::StillPixels(gpu::Device& device)
           {"write candidate blocks", motion_blur_copy_blocks_comp, 1}
       ) {}
 
-graph::ImageHandle StillPixels::begin(
+graph::ImageHandle StaticPixels::begin(
     graph::Graph& graph,
     graph::ImageHandle color,
     graph::ImageHandle wholeTarget,
-    StillPixelsBy by,
+    StaticPixelsBy by,
     const BlockLists& sorted,
     const PassParams& params
 ) const {
-    if (!mListsStill || by != StillPixelsBy::WholeCopy)
+    if (!mListsStill || by != StaticPixelsBy::WholeCopy)
         return begin(graph, color, wholeTarget, by);
     return mStill.add(
         graph, std::array{color}, sorted, findTarget(graph, color, wholeTarget), params
     );
 }
 
-graph::ImageHandle StillPixels::begin(
-    graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle wholeTarget, StillPixelsBy by
+graph::ImageHandle StaticPixels::begin(
+    graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle wholeTarget, StaticPixelsBy by
 ) const {
-    if (by == StillPixelsBy::InPlace)
+    if (by == StaticPixelsBy::InPlace)
         return color;
-    if (by == StillPixelsBy::CopyBack)
+    if (by == StaticPixelsBy::CopyBack)
         return findTarget(graph, color, {});
     const graph::ImageHandle target = findTarget(graph, color, wholeTarget);
 
@@ -87,16 +87,16 @@ graph::ImageHandle StillPixels::begin(
     return pass.target;
 }
 
-graph::ImageHandle StillPixels::end(
+graph::ImageHandle StaticPixels::end(
     graph::Graph& graph,
     graph::ImageHandle color,
     graph::ImageHandle filtered,
     const SortedBlocks& blocks,
     bool hasCandidates,
     const PassParams& params,
-    StillPixelsBy by
+    StaticPixelsBy by
 ) const {
-    if (by != StillPixelsBy::CopyBack)
+    if (by != StaticPixelsBy::CopyBack)
         return filtered;
     const std::array source{filtered};
     if (params.uniformMotionPx > 0.0f)

@@ -17,7 +17,7 @@
 
 namespace shutter::motion_blur {
 
-enum class StillPixelsBy : uint8_t {
+enum class StaticPixelsBy : uint8_t {
     WholeCopy, ///< all is copied before the filters run, or all still blocks if there is a list
     CopyBack,  ///< what the filters wrote is copied over the picture
     InPlace,   ///< nothing is copied: the filters read a copy that is there anyway
@@ -25,11 +25,11 @@ enum class StillPixelsBy : uint8_t {
 
 /// Chooses the cheaper way for a picture with this share of moving blocks, with hysteresis, so that
 /// a share near the limit does not recreate images in every frame.
-[[nodiscard]] StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last);
+[[nodiscard]] StaticPixelsBy chooseStaticPixels(double movingShare, StaticPixelsBy last);
 
-class StillPixels {
+class StaticPixels {
   public:
-    explicit StillPixels(gpu::Device& device);
+    explicit StaticPixels(gpu::Device& device);
 
     /// Returns the filters' target; `color` itself for InPlace.
     /// \param wholeTarget target of WholeCopy; invalid: a new image
@@ -37,7 +37,7 @@ class StillPixels {
         graph::Graph& graph,
         graph::ImageHandle color,
         graph::ImageHandle wholeTarget,
-        StillPixelsBy by
+        StaticPixelsBy by
     ) const;
 
     /// The same, where WholeCopy copies still blocks alone if they are in a list.
@@ -46,7 +46,7 @@ class StillPixels {
         graph::Graph& graph,
         graph::ImageHandle color,
         graph::ImageHandle wholeTarget,
-        StillPixelsBy by,
+        StaticPixelsBy by,
         const BlockLists& sorted,
         const PassParams& params
     ) const;
@@ -60,7 +60,7 @@ class StillPixels {
         const SortedBlocks& blocks,
         bool hasCandidates,
         const PassParams& params,
-        StillPixelsBy by) const;
+        StaticPixelsBy by) const;
 
   private:
     bool mListsStill;

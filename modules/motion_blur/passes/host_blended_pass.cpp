@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/own_blended_pass.h"
+#include "modules/motion_blur/passes/host_blended_pass.h"
 
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/passes/instant_surfaces.h"
@@ -31,7 +31,7 @@ BlendedTask describeTask(const BlendedDraws& draws, uint32_t part) {
 /// Declares the draws of a part.
 BlendedSums addPart(
     graph::Graph& graph,
-    const OwnBlended& own,
+    const HostBlended& own,
     const BlendedDraws& draws,
     graph::BufferHandle surfaces,
     const BlendedTask& known
@@ -81,9 +81,9 @@ BlendedSums addPart(
 
 } // namespace
 
-std::vector<BlendedSums> addOwnBlended(
+std::vector<BlendedSums> addHostBlended(
     graph::Graph& graph,
-    const OwnBlended& own,
+    const HostBlended& own,
     const BlendedDraws& draws,
     graph::BufferHandle surfaces
 ) {

@@ -48,7 +48,7 @@ double measureMemory(VkDevice device, const Named& named, VkExtent2D picture) {
 
 } // namespace
 
-void HostUnsaid::ask(const HostInputs& inputs, const HostMessage& message) {
+void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message) {
     if (!message)
         return;
     const auto images = listImages(inputs);
@@ -67,18 +67,19 @@ void HostUnsaid::ask(const HostInputs& inputs, const HostMessage& message) {
             append(samples, named.rule.name);
         mAsked |= bit;
         // Padding and a chain of mip levels are less than that.
-        constexpr double kMostTimes = 1.8;
-        constexpr uint64_t kLeastPixels = 128 * 128; // padding counts for much of a smaller one
-        const bool isLarge = uint64_t(picture.width) * picture.height >= kLeastPixels;
+        constexpr double kMaxTimes = 1.8;
+        constexpr uint64_t kMinPixels = 128 * 128; // padding counts for much of a smaller one
+        const bool isLarge = uint64_t(picture.width) * picture.height >= kMinPixels;
         if (isLarge && (mExtentAsked & bit) == 0 && named.image.extent.width == 0 &&
-            measureMemory(mDevice, named, picture) > kMostTimes) {
+            measureMemory(mDevice, named, picture) > kMaxTimes) {
             append(extents, named.rule.name);
             mExtentAsked |= bit;
         }
     }
     if (!usages.empty() || !samples.empty())
         message(fmt::format(
-            "motion blur check: {}{}{}{}{} not said, so it cannot be checked: say what the images "
+            "motion blur check: {}{}{}{}{} not declared, so it cannot be checked: say what the "
+            "images "
             "were made with, and what is missing is refused by name instead of left to the driver",
             usages.empty() ? "" : "the usage of ",
             usages,
@@ -88,7 +89,8 @@ void HostUnsaid::ask(const HostInputs& inputs, const HostMessage& message) {
         ));
     if (!extents.empty())
         message(fmt::format(
-            "motion blur check: the extent of {} is not said, and the image's memory is that of a "
+            "motion blur check: the extent of {} is not declared, and the image's memory is that "
+            "of a "
             "much larger one than {} x {}: say how large it is, and the area of it that is used",
             extents,
             picture.width,

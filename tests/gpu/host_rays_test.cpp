@@ -178,8 +178,8 @@ class OwnRays : public test::EmbeddedTest {
         described.measures = true;
         BlurStage stage(device(), mScene, described, hosts, plugins);
         SampleHost rays(device(), stage.renderer.scene().textureLayout());
-        test::Teller teller(kInstants);
-        stage.tellMotion(teller);
+        test::MotionDescriber describer(kInstants);
+        stage.declareMotion(describer);
         stage.shutter.exposureSeconds = 0.25;
         stage.host.changeInputs = [&](const render::PostContext& context, HostInputs& inputs) {
             std::optional<graph::TimedRays> timed;
@@ -312,7 +312,7 @@ class EmbeddedIds : public test::EmbeddedTest {
     }
 };
 
-TEST_F(EmbeddedIds, WithoutRowsNothingComesIntoSight) {
+TEST_F(EmbeddedIds, NothingIsRevealedWithoutRows) {
     MotionBlurSettings revealsNothing = settingsOf("hybrid");
     revealsNothing.revealTraversal = motion_blur::RevealTraversal::Stepping;
     revealsNothing.recursionLimit = 1;
@@ -321,7 +321,7 @@ TEST_F(EmbeddedIds, WithoutRowsNothingComesIntoSight) {
     EXPECT_TRUE(test::sameBits(draw(0), kept));
 }
 
-TEST_F(EmbeddedIds, WhatARayMeetsMayHaveNoRow) {
+TEST_F(EmbeddedIds, AHitEntityMayHaveNoRow) {
     // Rays behind the movers meet the wall.
     const image::Image drawn = draw(kRows - 1);
     EXPECT_TRUE(test::allFinite(drawn));

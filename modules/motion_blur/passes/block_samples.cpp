@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/block_looks.h"
+#include "modules/motion_blur/passes/block_samples.h"
 
 #include "spirv/motion_blur/resolved_looks.comp.h"
 #include "spirv/motion_blur/resolved_planes.comp.h"
@@ -33,7 +33,9 @@ uint32_t countThreadsAcross(const gpu::Device& device) {
 gpu::ComputePipelineDesc
 describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts, bool hasLens) {
     gpu::ComputePipelineDesc desc = describePass(
-        "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
+        "find blockSamples",
+        motion_blur_resolved_looks_comp,
+        std::vector<VkDescriptorType>(11, kBuffer)
     );
     desc.specialization = {
         sortsUniform ? 1u : 0u,
@@ -53,17 +55,17 @@ VkDeviceSize countAllBlocks(const PassParams& params) {
     return VkDeviceSize(blocks.x) * blocks.y;
 }
 
-VkDeviceSize countLookBytes(const PassParams& params) {
+VkDeviceSize countBlockSampleBytes(const PassParams& params) {
     // looksPerBlock() of resolved.glsl
-    const uint32_t looks = hasLens(params)
-                               ? 2 * params.sampleCount
-                               : params.getMethod<shader::ResolvedParams>().instantCount;
-    return countAllBlocks(params) * (VkDeviceSize(looks) + 1) * sizeof(shader::BlockLook);
+    const uint32_t blockSamples = hasLens(params)
+                                      ? 2 * params.sampleCount
+                                      : params.getMethod<shader::ResolvedParams>().instantCount;
+    return countAllBlocks(params) * (VkDeviceSize(blockSamples) + 1) * sizeof(shader::BlockSample);
 }
 
 } // namespace
 
-BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
+BlockSamples::BlockSamples(gpu::Device& device, bool sortsUniform)
     : mDevice(device),
       mFit(
           device,
@@ -77,12 +79,12 @@ BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
       mResolve{
           {{device, describeResolve(device, false)}, {device, describeResolve(device, true)}}} {}
 
-bool BlockLooks::canFind(const PassParams& params) const {
-    return params.sampleCount <= shader::kMostLooks &&
-           countLookBytes(params) <= mDevice.limits().maxStorageBufferRange;
+bool BlockSamples::canFind(const PassParams& params) const {
+    return params.sampleCount <= shader::kMaxBlockSamples &&
+           countBlockSampleBytes(params) <= mDevice.limits().maxStorageBufferRange;
 }
 
-graph::BufferHandle BlockLooks::addFit(
+graph::BufferHandle BlockSamples::addFit(
     graph::Graph& graph,
     const SurfaceLayer& raster,
     const TileInputs& tiles,
@@ -123,7 +125,7 @@ graph::BufferHandle BlockLooks::addFit(
         .planes;
 }
 
-BlockLookOutputs BlockLooks::addFind(
+BlockSampleOutputs BlockSamples::addFind(
     graph::Graph& graph,
     const SurfaceLayer& raster,
     const TileInputs& tiles,
@@ -133,18 +135,19 @@ BlockLookOutputs BlockLooks::addFind(
     struct Data {
         TileInputs tiles;
         graph::BufferHandle planes;
-        BlockLookOutputs sorted;
+        BlockSampleOutputs sorted;
     };
 
     graph::BufferHandle planes;
-    graph::BufferHandle looks;
+    graph::BufferHandle blockSamples;
     if (params.uniformMotionPx > 0.0f) {
         planes = addFit(graph, raster, tiles, params);
-        looks = graph.createBuffer("block looks", {countLookBytes(params), kListUsage});
+        blockSamples =
+            graph.createBuffer("block blockSamples", {countBlockSampleBytes(params), kListUsage});
     }
     return graph
         .addPass<Data>(
-            "find looks",
+            "find blockSamples",
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.tiles = tiles;
@@ -155,7 +158,7 @@ BlockLookOutputs BlockLooks::addFind(
                         builder.read(buffer, Access::StorageRead);
                 if (planes.isValid()) {
                     data.planes = builder.read(planes, Access::StorageRead);
-                    data.sorted.looks = builder.write(looks, Access::StorageWrite);
+                    data.sorted.blockSamples = builder.write(blockSamples, Access::StorageWrite);
                 }
                 data.sorted.blocks = empty;
                 BlockLists& lists = data.sorted.blocks.lists;
@@ -182,7 +185,7 @@ BlockLookOutputs BlockLooks::addFind(
                      {layers.raster,
                       layers.last.isValid() ? layers.last : layers.raster,
                       hasPlanes ? data.planes : lists.blocks,
-                      hasPlanes ? data.sorted.looks : lists.blocks,
+                      hasPlanes ? data.sorted.blockSamples : lists.blocks,
                       lists.blocks,
                       lists.arguments,
                       layers.second.isValid() ? layers.second : layers.raster,
@@ -201,20 +204,20 @@ BlockLookOutputs BlockLooks::addFind(
         .sorted;
 }
 
-graph::ImageHandle BlockLooks::addResolve(
+graph::ImageHandle BlockSamples::addResolve(
     graph::Graph& graph,
     const SurfaceLayer& raster,
     const SortedBlocks& blocks,
-    graph::BufferHandle looks,
+    graph::BufferHandle blockSamples,
     graph::ImageHandle target,
     const PassParams& params
 ) const {
-    if (!looks.isValid())
+    if (!blockSamples.isValid())
         return target;
 
     struct Data {
         BlockLists lists;
-        graph::BufferHandle looks;
+        graph::BufferHandle blockSamples;
         graph::ImageHandle target;
     };
 
@@ -224,7 +227,7 @@ graph::ImageHandle BlockLooks::addResolve(
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 builder.read(raster.color, Access::SampledCompute);
-                data.looks = builder.read(looks, Access::StorageRead);
+                data.blockSamples = builder.read(blockSamples, Access::StorageRead);
                 data.lists = {
                     builder.read(blocks.lists.blocks, Access::StorageRead),
                     builder.read(blocks.lists.arguments, Access::IndirectRead)};
@@ -235,7 +238,7 @@ graph::ImageHandle BlockLooks::addResolve(
                 gpu::BindingList bindings;
                 bindings.sampled(resources.view(color), mDevice.linearSampler())
                     .storage(resources.image(data.target))
-                    .buffer(resources.buffer(data.looks))
+                    .buffer(resources.buffer(data.blockSamples))
                     .buffer(resources.buffer(data.lists.blocks));
                 dispatchList(
                     context,

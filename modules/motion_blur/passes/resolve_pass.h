@@ -6,7 +6,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/block_looks.h"
+#include "modules/motion_blur/passes/block_samples.h"
 #include "modules/motion_blur/passes/candidate_lists.h"
 #include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/deforming_parts.h"
@@ -28,8 +28,8 @@ struct SearchResources {
     graph::ImageHandle motionDepth; ///< of this frame's raster
     graph::ImageHandle edgeSurface; ///< MotionBlurInputs::edgeSurface
     SortedCandidates candidates;
-    graph::BufferHandle crowds; ///< of Crowds; invalid: no tile can be crowded
-    graph::BufferHandle looks;  ///< of BlockLooks
+    graph::BufferHandle crowds;       ///< of Crowds; invalid: no tile can be crowded
+    graph::BufferHandle blockSamples; ///< of BlockSamples
     // By LayerIndex; invalid: nothing deforms there.
     std::array<graph::BufferHandle, 3> parts; ///< of DeformingParts
     std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
@@ -66,22 +66,22 @@ class SearchPipelines {
     std::vector<gpu::LazyPipeline> mPipelines;
 };
 
-struct LookUpOutputs {
+struct ResolvePassOutputs {
     SearchResources search;
     SortedBlocks blocks;
-    ListedPixels listed;                                    ///< invalid unless pixels were listed
-    graph::ImageHandle picture;                             ///< with all blocks that move written
-    StillPixelsBy stillPixelsBy = StillPixelsBy::WholeCopy; ///< how `picture` gets the others
-    std::vector<graph::BufferHandle> surfaces;              ///< MotionBlurOutputs::surfaces
+    ListedPixels listed;                                      ///< invalid unless pixels were listed
+    graph::ImageHandle picture;                               ///< with all blocks that move written
+    StaticPixelsBy stillPixelsBy = StaticPixelsBy::WholeCopy; ///< how `picture` gets the others
+    std::vector<graph::BufferHandle> surfaces;                ///< MotionBlurOutputs::surfaces
 };
 
-class LookUp {
+class ResolvePass {
   public:
-    LookUp(gpu::Device& device, bool listsPixels);
+    ResolvePass(gpu::Device& device, bool listsPixels);
 
     /// \param params with shader::ResolvedParams as the method knows it; comes back with the rest
     /// of it, and with uniformMotionPx 0 where each pixel searches for itself
-    [[nodiscard]] LookUpOutputs
+    [[nodiscard]] ResolvePassOutputs
     add(graph::Graph& graph,
         const MotionBlurInputs& inputs,
         const MotionBlurSettings& settings,
@@ -93,7 +93,7 @@ class LookUp {
     [[nodiscard]] MotionBlurOutputs
     end(graph::Graph& graph,
         const MotionBlurInputs& inputs,
-        const LookUpOutputs& found,
+        const ResolvePassOutputs& found,
         const PassParams& params,
         SharedPasses& shared) const;
 
@@ -111,7 +111,7 @@ class LookUp {
     addSort(graph::Graph& graph, const SortedCandidates& listed, const PassParams& params) const;
     /// \param areCrowded the blocks of crowded tiles; otherwise those that see several planes
     void addResolve(
-        graph::Graph& graph, LookUpOutputs& outputs, bool areCrowded, const PassParams& params
+        graph::Graph& graph, ResolvePassOutputs& outputs, bool areCrowded, const PassParams& params
     ) const;
 
     bool mListsPixels;
@@ -122,7 +122,7 @@ class LookUp {
     DeformingParts mParts;
     LensFilter mLensFilter;
     gpu::LazyPipeline mSort;
-    BlockLooks mBlocks;
+    BlockSamples mBlocks;
     SearchPipelines mResolve;
     gpu::Buffer mNoise;         ///< the mask; empty until a frame has noise
     gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot

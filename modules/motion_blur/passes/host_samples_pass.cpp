@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/own_samples_pass.h"
+#include "modules/motion_blur/passes/host_samples_pass.h"
 
 #include "spirv/motion_blur/collect_samples.comp.h"
 #include "spirv/motion_blur/list_samples.comp.h"
@@ -8,7 +8,7 @@
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/passes/dispatch.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
-#include "shaders/motion_blur/own_samples_shared.h"
+#include "shaders/motion_blur/host_samples_shared.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +34,7 @@ uint32_t capacityOf(const PassParams& params) {
 
 } // namespace
 
-struct OwnSamplesPass::Lists {
+struct HostSamplesPass::Lists {
     graph::BufferHandle samples; ///< shader::SampleHeader, shader::AskedSample
     graph::BufferHandle answers; ///< vec4 by sample
     graph::BufferHandle first;   ///< by listed pixel
@@ -42,13 +42,13 @@ struct OwnSamplesPass::Lists {
 };
 
 /// What both passes have that search as the resolve does, pixel by listed pixel.
-struct OwnSamplesPass::Searching {
+struct HostSamplesPass::Searching {
     SearchResources search;
     ListedPixels listed;
     Lists lists;
     graph::ImageHandle picture;
 
-    void use(graph::PassBuilder& builder, const LookUpOutputs& found) {
+    void use(graph::PassBuilder& builder, const ResolvePassOutputs& found) {
         search = found.search;
         search.use(builder);
         listed = {
@@ -58,13 +58,13 @@ struct OwnSamplesPass::Searching {
     }
 };
 
-OwnSamplesPass::OwnSamplesPass(gpu::Device& device)
+HostSamplesPass::HostSamplesPass(gpu::Device& device)
     : mDevice(device),
       mList(device, describeSamples("list samples", motion_blur_list_samples_comp, 5)),
       mCollect(device, describeSamples("collect samples", motion_blur_collect_samples_comp, 4)) {}
 
-void OwnSamplesPass::add(
-    graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params
+void HostSamplesPass::add(
+    graph::Graph& graph, const HostSamples& own, ResolvePassOutputs& found, const PassParams& params
 ) const {
     Lists lists = createLists(graph, params);
     addList(graph, found, lists, params);
@@ -72,8 +72,8 @@ void OwnSamplesPass::add(
     addCollect(graph, found, lists, params);
 }
 
-OwnSamplesPass::Lists
-OwnSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const {
+HostSamplesPass::Lists
+HostSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const {
     const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
     const VkDeviceSize capacity = capacityOf(params);
     Lists lists;
@@ -104,8 +104,8 @@ OwnSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const
     return lists;
 }
 
-void OwnSamplesPass::addList(
-    graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params
+void HostSamplesPass::addList(
+    graph::Graph& graph, ResolvePassOutputs& found, Lists& lists, const PassParams& params
 ) const {
     const Searching& pass = graph.addPass<Searching>(
         "list samples",
@@ -135,8 +135,8 @@ void OwnSamplesPass::addList(
     lists = pass.lists;
 }
 
-void OwnSamplesPass::addAnswer(
-    graph::Graph& graph, const OwnSamples& own, Lists& lists, const PassParams& params
+void HostSamplesPass::addAnswer(
+    graph::Graph& graph, const HostSamples& own, Lists& lists, const PassParams& params
 ) const {
     struct Data {
         Lists lists;
@@ -181,8 +181,8 @@ void OwnSamplesPass::addAnswer(
     lists.answers = pass.lists.answers;
 }
 
-void OwnSamplesPass::addCollect(
-    graph::Graph& graph, LookUpOutputs& found, const Lists& lists, const PassParams& params
+void HostSamplesPass::addCollect(
+    graph::Graph& graph, ResolvePassOutputs& found, const Lists& lists, const PassParams& params
 ) const {
     const Searching& pass = graph.addPass<Searching>(
         "collect samples",

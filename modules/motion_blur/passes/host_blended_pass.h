@@ -20,9 +20,9 @@ struct BlendedDraws {
 /// Declares one pass for each part, in which the host records its draws.
 /// \param own must live until the passes have been recorded
 /// \param surfaces MotionBlurOutputs::surfaces of the rectangle; invalid: there are none
-[[nodiscard]] std::vector<BlendedSums> addOwnBlended(
+[[nodiscard]] std::vector<BlendedSums> addHostBlended(
     graph::Graph& graph,
-    const OwnBlended& own,
+    const HostBlended& own,
     const BlendedDraws& draws,
     graph::BufferHandle surfaces
 );

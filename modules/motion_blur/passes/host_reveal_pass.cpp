@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/passes/own_reveal_pass.h"
+#include "modules/motion_blur/passes/host_reveal_pass.h"
 
 #include "engine/graph/execute.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 namespace shutter::motion_blur {
 
-RayRevealOutputs addOwnReveal(
+RayRevealOutputs addHostReveal(
     graph::Graph& graph,
     const gpu::Device& device,
     const RayRevealInputs& inputs,
-    const OwnReveal& own
+    const HostReveal& own
 ) {
     using graph::Access;
 

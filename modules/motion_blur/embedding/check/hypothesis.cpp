@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/check/reading.h"
+#include "modules/motion_blur/embedding/check/hypothesis.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ void scaleToExposure(std::vector<CheckPoint>& points) {
         if (!point.isSky && square > 1.0)
             shares.push_back(glm::dot(point.motion, point.camera) / square);
     }
-    const auto share = takeMedian(shares, kLeastTelling);
+    const auto share = takeMedian(shares, kMinInformative);
     if (share && std::abs(*share) > 0.02 && std::abs(*share) < 1.05)
         for (CheckPoint& point : points)
             point.camera *= std::abs(*share);
@@ -29,54 +29,57 @@ void scaleToExposure(std::vector<CheckPoint>& points) {
 
 } // namespace
 
-std::optional<size_t> judge(const Reading& said, const Reading& guess) {
+std::optional<size_t> judge(const Hypothesis& declared, const Hypothesis& candidate) {
     size_t count = 0;
     size_t explained = 0;
-    size_t telling = 0;
-    size_t tellingGuess = 0;
-    size_t tellingSaid = 0;
-    for (size_t i = 0; i < guess.points.size(); ++i) {
-        const CheckPoint& point = guess.points[i];
+    size_t informative = 0;
+    size_t informativeCandidate = 0;
+    size_t informativeDeclared = 0;
+    for (size_t i = 0; i < candidate.points.size(); ++i) {
+        const CheckPoint& point = candidate.points[i];
         if (point.isSky)
             continue; // hosts seldom write vectors there
         ++count;
-        explained += guess.agreesAt(point);
-        const dvec2 apart = guess.differenceOf(point) - said.differenceOf(said.points[i]);
+        explained += candidate.agreesAt(point);
+        const dvec2 apart =
+            candidate.differenceOf(point) - declared.differenceOf(declared.points[i]);
         const double motion = std::max(
-            glm::length(guess.cameraOf(point)), glm::length(said.cameraOf(said.points[i]))
+            glm::length(candidate.cameraOf(point)),
+            glm::length(declared.cameraOf(declared.points[i]))
         );
         // With little camera motion, movers' vectors agree with it if scaled down enough.
         if (motion < 1.0 || glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
             continue;
-        ++telling;
-        tellingGuess += guess.agreesAt(point);
-        tellingSaid += said.agreesAt(said.points[i]);
+        ++informative;
+        informativeCandidate += candidate.agreesAt(point);
+        informativeDeclared += declared.agreesAt(declared.points[i]);
     }
-    const bool isBetter = count >= kLeastPoints && telling >= std::max(kLeastTelling, count / 20) &&
-                          10 * tellingGuess >= 6 * telling && 10 * tellingSaid <= telling &&
-                          2 * explained >= count;
+    const bool isBetter = count >= kMinPoints &&
+                          informative >= std::max(kMinInformative, count / 20) &&
+                          10 * informativeCandidate >= 6 * informative &&
+                          10 * informativeDeclared <= informative && 2 * explained >= count;
     return isBetter ? std::optional(explained) : std::nullopt;
 }
 
-Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
-    Reading reading;
-    reading.points = makePoints(frame, facts);
-    reading.haveCamera = facts.isNative || !facts.convention.vectors.lackCamera;
-    return reading;
+Hypothesis read(const CheckedFrame& frame, const CheckFacts& facts) {
+    Hypothesis hypothesis;
+    hypothesis.points = makePoints(frame, facts);
+    hypothesis.haveCamera = facts.isNative || !facts.convention.vectors.lackCamera;
+    return hypothesis;
 }
 
-Reading readSaid(const CheckedFrame& frame) {
-    Reading said = read(frame, frame.facts);
+Hypothesis readDeclared(const CheckedFrame& frame) {
+    Hypothesis declared = read(frame, frame.facts);
     if (frame.facts.isNative && !frame.facts.hasExposureCameras)
-        scaleToExposure(said.points);
-    return said;
+        scaleToExposure(declared.points);
+    return declared;
 }
 
-size_t countAgreeing(const Reading& reading) {
+size_t countAgreeing(const Hypothesis& hypothesis) {
     return size_t(std::count_if(
-        reading.points.begin(),
-        reading.points.end(),
-        [&](const CheckPoint& point) { return !point.isSky && reading.agreesAt(point); }
+        hypothesis.points.begin(),
+        hypothesis.points.end(),
+        [&](const CheckPoint& point) { return !point.isSky && hypothesis.agreesAt(point); }
     ));
 }
 
@@ -134,13 +137,13 @@ CheckFacts scaleLens(const CheckFacts& facts, const dvec2& scale) {
 
 std::string describeLens(const CheckFacts& facts, const dvec2& scale) {
     const HostCamera camera = findCamera(facts, false).value();
-    const dvec2 said(std::abs(camera.clipFromView[0].x), std::abs(camera.clipFromView[1].y));
-    const dvec2 fitted = said * scale;
+    const dvec2 declared(std::abs(camera.clipFromView[0].x), std::abs(camera.clipFromView[1].y));
+    const dvec2 fitted = declared * scale;
     if (scale.x != scale.y)
         return fmt::format(
             "cameras.clipFromView had an aspect ratio of {:.3g} in place of {:.3g}",
             fitted.y / fitted.x,
-            said.y / said.x
+            declared.y / declared.x
         );
     if (camera.isPerspective)
         return fmt::format(
@@ -148,12 +151,12 @@ std::string describeLens(const CheckFacts& facts, const dvec2& scale) {
             "place "
             "of {:.3g}",
             degreesOf(fitted.y),
-            degreesOf(said.y)
+            degreesOf(declared.y)
         );
     return fmt::format(
         "cameras.clipFromView showed {:.3g} m from top to bottom in place of {:.3g}",
         2.0 / fitted.y,
-        2.0 / said.y
+        2.0 / declared.y
     );
 }
 
