@@ -33,7 +33,7 @@ uint32_t countThreadsAcross(const gpu::Device& device) {
 gpu::ComputePipelineDesc
 describeFind(const gpu::Device& device, bool sortsUniform, bool hasParts, bool hasLens) {
     gpu::ComputePipelineDesc desc = describePass(
-        "find blockSamples",
+        "find block samples",
         motion_blur_resolved_looks_comp,
         std::vector<VkDescriptorType>(11, kBuffer)
     );
@@ -143,11 +143,11 @@ BlockSampleOutputs BlockSamples::addFind(
     if (params.uniformMotionPx > 0.0f) {
         planes = addFit(graph, raster, tiles, params);
         blockSamples =
-            graph.createBuffer("block blockSamples", {countBlockSampleBytes(params), kListUsage});
+            graph.createBuffer("block samples", {countBlockSampleBytes(params), kListUsage});
     }
     return graph
         .addPass<Data>(
-            "find blockSamples",
+            "find block samples",
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.tiles = tiles;
