@@ -123,8 +123,8 @@ struct EnvironmentConstants {
 struct FrameConstants {
     mat4 clipFromRelWorld;
     mat4 relWorldFromClip;
-    mat4 clipFromRelWorldOpen; // maps points at the raster instant to their place at shutter open,
-                               // if static in the world
+    mat4 clipFromRelWorldOpen;  // maps points at the raster instant to their place at shutter open,
+                                // if static in the world
     mat4 clipFromRelWorldClose; // ... and at shutter close; a direction of the world has w = 0
     vec4 forward;        // xyz unit view direction; w: the smallest clip w in front of the camera
     vec4 background;     // linear RGB

@@ -40,7 +40,7 @@ struct TimedConstants {
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
     uvec2 cameraKeys; // address of MotionKey[]: relWorldFromView; rigid but for x and y, which a
                       // lens that zooms scales by how much wider it sees than at the raster instant
-    uvec2 lights; // address of LightRow[]: all lights at the first key, then at the next, ...
+    uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;
     uint lightCount;

@@ -609,12 +609,13 @@ TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
     for (int again = 0; again < 2; ++again)
         submitCleared([&](VkCommandBuffer commands) {
             EXPECT_TRUE(mBlur->record(commands, 0, inputs, settings).ok());
-            EXPECT_EQ(countReported("not said"), 1u) << "once, before its commands are submitted";
+            EXPECT_EQ(countReported("not declared"), 1u)
+                << "once, before its commands are submitted";
         });
     EXPECT_EQ(
         countReported(
             "motion blur check: the usage of color, output, and the samples of color, output,"
-            " motionDepth are not said"
+            " motionDepth are not declared"
         ),
         1u
     );
@@ -623,7 +624,7 @@ TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
     for (motion_blur::HostImage* image : {&inputs.color, &inputs.motionDepth, &inputs.output})
         image->samples = VK_SAMPLE_COUNT_1_BIT;
     EXPECT_TRUE(record().ok());
-    EXPECT_EQ(countReported("not said"), 0u) << "all is said";
+    EXPECT_EQ(countReported("not declared"), 0u) << "all is declared";
 }
 
 TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
@@ -640,7 +641,7 @@ TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
             const core::Status done = mBlur->record(commands, 0, inputs, settings);
             EXPECT_TRUE(done.ok()) << done.error().message;
         });
-        return countReported("the extent of color, output is not said");
+        return countReported("the extent of color, output is not declared");
     };
     createWithMessages(true);
     EXPECT_EQ(countAsked(), 1u);

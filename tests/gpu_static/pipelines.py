@@ -37,8 +37,8 @@ VARIANTS = (
 # What takes the time of a frame. Each of these is pinned, in all its variants.
 HOT = (
     "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "deform", "edge",
-    "filter lens", "find block samples", "find parts",
-    "find parts, last frame", "find parts, second raster", "fit planes", "gather", "gather and composite", "gather uniform",
+    "filter lens", "find block samples", "find parts", "find parts, last frame",
+    "find parts, second raster", "fit planes", "gather", "gather and composite", "gather uniform",
     "guertin2014", "instant surfaces", "jimenez2014", "list candidates",
     "list candidates, last frame", "list candidates, second raster", "list crowds", "mcguire2012",
     "pack surface", "particle composite", "particles", "ray mask", "ray reveal", "resolve",

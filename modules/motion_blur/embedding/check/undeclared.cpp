@@ -79,8 +79,8 @@ void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message
     if (!usages.empty() || !samples.empty())
         message(fmt::format(
             "motion blur check: {}{}{}{}{} not declared, so it cannot be checked: say what the "
-            "images "
-            "were made with, and what is missing is refused by name instead of left to the driver",
+            "images were made with, and what is missing is refused by name instead of left to the "
+            "driver",
             usages.empty() ? "" : "the usage of ",
             usages,
             usages.empty() || samples.empty() ? "" : ", and ",
@@ -90,8 +90,8 @@ void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message
     if (!extents.empty())
         message(fmt::format(
             "motion blur check: the extent of {} is not declared, and the image's memory is that "
-            "of a "
-            "much larger one than {} x {}: say how large it is, and the area of it that is used",
+            "of a much larger one than {} x {}: say how large it is, and the area of it that is "
+            "used",
             extents,
             picture.width,
             picture.height
