@@ -13,6 +13,7 @@
 #include <array>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <iterator>
 #include <random>
 #include <span>
 
@@ -28,7 +29,8 @@ constexpr const char* kHeaders[] = {
     "Shutter",
     "Times of passes",
     "Why",
-    "Keys"};
+    "Keys",
+    "Depth of field"};
 
 /// An example of each statistic of a frame.
 render::FrameStatistics makeStatistics() {
@@ -155,7 +157,6 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
     game::Panel panel;
     game::PlaySettings settings;
     settings.showPanel = true;
-    settings.method = "hybrid"; // it has the most settings to click on
     app::InputCollector input;
     std::mt19937 random(7);
     const auto below = [&](uint32_t count) {
@@ -163,9 +164,14 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
     };
     draw(ui, panel, settings, {});
     int changed = 0;
-    for (int frame = 0; frame < 1500; ++frame) {
-        if (frame % 50 == 0)
-            unfold(std::array{kHeaders[below(9)], kHeaders[below(9)], kHeaders[4]});
+    for (int frame = 0; frame < 2500; ++frame) {
+        if (frame % 50 == 0) {
+            settings.method = "hybrid"; // it has the most settings to click on
+            unfold(std::array{
+                kHeaders[below(std::size(kHeaders))],
+                kHeaders[below(std::size(kHeaders))],
+                kHeaders[4]});
+        }
         if (below(5) == 0)
             input.movePointer({900.0 + below(380), 60.0 + below(620)});
         for (const app::MouseButton button : {app::MouseButton::Left, app::MouseButton::Right})
