@@ -292,9 +292,9 @@ TEST_F(Sequence, NoiseThatTurnsIsTheSameAfterAStop) {
     for (const char* folder : {"fixed", "whole", "stopped"})
         fs::create_directory(path(folder));
     draw("fixed", {"--out", "fixed/f_%04d.png"});
-    draw("turning", {"--out", "whole/f_%04d.png"});
-    draw("turning", {"--frames", "-2:-1", "--out", "stopped/f_%04d.png"});
-    draw("turning", {"--out", "stopped/f_%04d.png"});
+    draw("per_frame", {"--out", "whole/f_%04d.png"});
+    draw("per_frame", {"--frames", "-2:-1", "--out", "stopped/f_%04d.png"});
+    draw("per_frame", {"--out", "stopped/f_%04d.png"});
     EXPECT_TRUE(readFrames("whole") == readFrames("stopped"));
     EXPECT_TRUE(readFrames("whole") != readFrames("fixed"));
 }
