@@ -137,9 +137,9 @@ Lens makeLens(
 /// The view at kTimes.
 struct Views {
     std::array<Lens, kTimes.size()> lenses;
-    bool areOne = true; ///< the camera stands still
+    bool areOne = true; ///< the camera is static
 
-    /// The lens that leaves least in focus, of a camera that stands still.
+    /// The lens that leaves least in focus, of a static camera.
     [[nodiscard]] const Lens& widest() const {
         return *std::max_element(lenses.begin(), lenses.end(), [](const Lens& a, const Lens& b) {
             return a.nearestSharp < b.nearestSharp;

@@ -34,8 +34,7 @@ bool hasSameParts(const scene::Deformation& a, const scene::Deformation& b) {
            a.waves.waves.size() == b.waves.waves.size();
 }
 
-/// Of a raster before this frame's: what hides what is the same in both, so that it adds nothing to
-/// what may be seen.
+/// Returns whether the last raster shows the same surfaces as this one, so that it adds nothing.
 bool showsNothingElse(const RasterRecord& last, const RasterRecord& now) {
     return last.shapes.empty() && now.shapes.empty() && last.entities == now.entities &&
            last.unjitteredFromWorld == now.unjitteredFromWorld &&

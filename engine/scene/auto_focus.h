@@ -37,7 +37,7 @@ struct FocusTrail {
     };
 
     int64_t firstStep = 0;        ///< of `inverses`
-    std::vector<double> inverses; ///< of the focus distances, 1/m, one a step
+    std::vector<double> inverses; ///< of the focus distances, 1/m, one per step
     std::vector<Cut> cuts;        ///< rising
     /// Time of the last CameraCut that was seen.
     double cutSeconds = -std::numeric_limits<double>::infinity();

@@ -11,7 +11,7 @@ SHUTTER_SHADER_BEGIN
 SHUTTER_CONST uint kCheckAcross = 64u;
 SHUTTER_CONST uint kCheckDown = 36u;
 SHUTTER_CONST uint kCheckSamples = 2304u; // across times down
-/// Depth and ids are taken at more pixels, in which the next frame's surfaces are lookedUp up: of a
+/// Depth and ids are taken at more pixels, in which the next frame's surfaces are looked up: of a
 /// picture that has fewer columns or rows, at all of them.
 SHUTTER_CONST uint kCheckFineAcross = 256u;
 SHUTTER_CONST uint kCheckFineDown = 144u;

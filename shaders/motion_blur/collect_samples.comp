@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Replaces requested samples by a host's answers. A sample without an answer retains its lookedUp-up
+// Replaces requested samples by a host's answers. A sample without an answer retains its looked-up
 // colour, and so does a pixel without any.
 #version 460
 #extension GL_GOOGLE_include_directive : require

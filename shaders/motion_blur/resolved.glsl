@@ -178,7 +178,7 @@ uint lensSetOf(uvec2 pixel) {
     return (turn.x >> 1u) << 3u | (turn.y >> 1u) << 2u | fine;
 }
 
-/// Entries of a block in the table of firstSample: BlockSample.
+/// Entries of a block in the table of BlockSample.
 uint looksPerBlock(ResolvedParams method) {
     uint firstSample = has(method, kHasLensPlaces) ? 2u * (method.instantCount / kLensSets) : method.instantCount;
     return firstSample + 1u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How widely a lens spreads what a pixel sees, and what the filter after the search is told of it.
+// How widely a lens spreads what a pixel sees, and what the filter after the search reads of it.
 #ifndef SHUTTER_RESOLVED_LENS_GLSL
 #define SHUTTER_RESOLVED_LENS_GLSL
 
@@ -36,7 +36,7 @@ vec2 shiftForInterpolation(InstantMotionsRef motions, uint instant, float along)
     return share * (lens.xy + lens.zw * along);
 }
 
-/// From where a block firstSample at a plane by the middle set to where it does by another.
+/// The step from where the middle set samples a plane to where another set does.
 /// \param blockSample,change of the sample (BlockSample)
 vec2 lookOfSet(InstantMotionsRef motions, BlockSample blockSample, BlockSample change, uint sample_, uint set) {
     vec2 seen = change.place.x * (lensOf(motions, sample_ * kLensSets + set).zw -

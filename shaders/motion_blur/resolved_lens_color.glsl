@@ -10,14 +10,14 @@
 /// Diameter of the circle of confusion of what was found, pixels.
 float confusionOf(Seen seen) {
     if (seen.key == kSkyKey) return confusionAt(InstantMotionsRef(method.motions), kFarthest);
-    // A plane's blockSample knows no depth.
+    // The sample of a plane has no depth.
     float depth = seen.key == kNoKey ? fetchSurfaceAt(seen.layer, seen.at).depth : seen.depth;
     return confusionAt(InstantMotionsRef(method.motions), depth);
 }
 
 /// The sample with the place that its colour is fetched at.
 Seen placeForColor(Seen seen, uint instant) {
-    if (!kHasLens || seen.key == kNoKey) return seen; // a plane's blockSample has it
+    if (!kHasLens || seen.key == kNoKey) return seen; // the sample of a plane has it
     float along = seen.key == kSkyKey ? 0.0f : alongOf(seen.depth, true);
     vec2 at = seen.at + shiftForInterpolation(InstantMotionsRef(method.motions), instant, along);
     if (!isInside(at)) return seen;

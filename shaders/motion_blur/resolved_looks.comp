@@ -45,7 +45,7 @@ layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Margin around sample positions for linear filtering.
 const float kFetchMarginPx = 1.0f;
-/// Most blocks of the raster, across and down, that a block may blockSample at.
+/// Most blocks of the raster, across and down, that a block may sample.
 const int kMaxBlocksAcross = kHasLens ? 6 : 4;
 const float kFarAway = 1.0e4f;
 /// Inverse of the depth that the sky's places are taken at, 1/metre.
@@ -311,7 +311,7 @@ struct BlockSearch {
     LayerMotion layer;
 };
 
-/// From a place of the block to where it firstSample in the course of the exposure, at a few instants, by all
+/// From a place of the block to where it samples in the course of the exposure, at a few instants, by all
 /// places of the lens: bounds, x and y least and greatest.
 vec4 boundPlacesOf(BlockSearch search, uint mover, float along, vec2 x) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
@@ -382,7 +382,7 @@ Spread measureSpread(BlockSearch search, uint lane) {
     return spread;
 }
 
-/// With a lens: how the other sets' firstSample at a plane differ from the middle one's.
+/// With a lens: how the places at which other sets sample a plane differ from the middle set's.
 /// \param depth at the instant of what the block's centre sees
 BlockSample findChange(uint sample_, float depth) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
@@ -393,7 +393,7 @@ BlockSample findChange(uint sample_, float depth) {
     return BlockSample(vec2(share * (focus - along), 0.0f), 0u, 0u);
 }
 
-/// Finds and keeps the blockSample of one instant. \return where the block firstSample, if that is a plane
+/// Finds and stores the block sample of one instant. \return where the block samples, if that is a plane
 PlaneMap findBlockSample(BlockSearch search, uint instant) {
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
     Shared seen = findShared(search.tile, slots, search.perspective);

@@ -38,7 +38,7 @@ struct Mean {
     float confusionPx; // the least of those known
 };
 
-/// A lookedUp-up sample.
+/// A sample that was looked up.
 struct LookedUp {
     bool isKnown;
     bool isTraced; // a ray shall replace it

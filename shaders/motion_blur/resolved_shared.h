@@ -76,11 +76,11 @@ SHUTTER_CONST uint kMaxBlockSamples = 32u;
 /// perY the bits of a float, their share of InstantNoise, [0, 1]. With a lens place.x is the
 /// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
-/// With a lens there are two entries per sample: the middle set's blockSample and, where that is a
-/// plane, its change. Another set firstSample at blockSample + perX * d.x + perY * d.y, where d =
+/// With a lens there are two entries per sample: the middle set's place and, where that is a
+/// plane, its change. Another set samples at place + perX * d.x + perY * d.y, where d =
 /// change.place.x * (zw of its place - zw of the middle set's) (lensOf()).
 ///
-/// What a block firstSample at in this frame's raster at an instant: a plane (PlaneMap), or
+/// What a block samples in this frame's raster at an instant: a plane (PlaneMap), or
 /// candidates.
 struct BlockSample {
     vec2 place; // of the block's centre, pixels

@@ -6,7 +6,7 @@
 
 #include "motion_blur/resolved.glsl"
 
-/// Whether pixels with motion vectors of 0 get no corners. Usually no sample is lookedUp up in them;
+/// Whether pixels with motion vectors of 0 get no corners. Usually no sample is looked up in them;
 /// if one is, it takes the slower path for edges.
 layout(constant_id = 0) const bool kSkipsStill = false;
 layout(constant_id = 1) const bool kHasEdges = false; // pixels may show two surfaces

@@ -30,7 +30,7 @@ core::Status checkPlan(const HostPlan& plan, uint32_t framesInFlight) {
     return {};
 }
 
-/// Images of a small picture, in place of dryRun ones.
+/// Images of a small picture, with placeholder handles.
 class SmallImages {
   public:
     SmallImages(gpu::Device& device, HostInputs& inputs) : mDevice(device) {
