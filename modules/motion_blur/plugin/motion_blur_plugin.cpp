@@ -87,11 +87,13 @@ core::Decision MotionBlurPlugin::decide(const render::ViewFacts& facts) const {
         return {false, "it needs rays, which the device cannot trace"};
     if (seesThroughLens(facts))
         return {true, "the lens is open"};
+    const std::string lens =
+        facts.usesLens && settings().method->readsLens ? ", and the lens leaves all in focus" : "";
     if (!(facts.exposureSeconds > 0.0))
-        return {false, "the exposure is 0"};
+        return {false, "the exposure is 0" + lens};
     if (!facts.moves)
-        return {false, "nothing in the picture moves during the exposure"};
-    return {true, "something in the picture moves during the exposure"};
+        return {false, "nothing in the picture moves during the exposure" + lens};
+    return {true, "something in the picture moves during the exposure" + lens};
 }
 
 bool MotionBlurPlugin::seesThroughLens(const render::ViewFacts& facts) const {
