@@ -4,6 +4,7 @@
 // again.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -173,6 +174,24 @@ TEST_F(ResolvedHistory, AFrameAfterAnotherMethodFindsTheSameHistory) {
     const auto first = HistoryFrames(device(), scene).at(0);
     EXPECT_TRUE(drawsLast(first));
     EXPECT_TRUE(test::sameBits(first.color, drawFollowing(scene).color)) << "the first frame";
+}
+
+TEST_F(ResolvedHistory, AFrameFromWhichOnTheLensSpreadsFindsTheSameHistory) {
+    // The wall is static in the raster of the frame before, whose lens left all in focus.
+    Scene scene;
+    scene.world().registry.add(
+        scene.builder.camera,
+        scene::FocusMotion{
+            {{-0.6 / kFramesPerSecond, 5.0, 1e6}, {-0.55 / kFramesPerSecond, 5.0, 0.02}}}
+    );
+    HistoryFrames frames(device(), scene);
+    EXPECT_FALSE(test::hasPass(frames.at(-1), "filter lens"));
+    const auto following = frames.at(0);
+    EXPECT_TRUE(test::hasPass(following, "filter lens"));
+    EXPECT_GT(countFromLast(following), 0u);
+    const auto alone = HistoryFrames(device(), scene).at(0);
+    EXPECT_TRUE(drawsLast(alone));
+    EXPECT_TRUE(test::sameBits(alone.color, following.color));
 }
 
 TEST_F(ResolvedHistory, AFrameThatIsDrawnAgainFindsTheSameAgain) {
