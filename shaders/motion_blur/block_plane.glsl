@@ -26,7 +26,10 @@ struct PlaneMap {
     vec2 perX;
     vec2 perY;
     float pxPerAlong; // how far off the place is where the surface is off the plane
-    float depth;      // at the instant of what the block's centre sees: with a lens alone
+    // With a lens alone, at the instant, by the middle set: of what the block's centre sees, and how
+    // much 1 / depth grows per pixel.
+    float depth;
+    vec2 slope;
 };
 
 /// Greatest distance in `along` between two planes within the block of the other.

@@ -36,12 +36,27 @@ vec2 shiftForInterpolation(InstantMotionsRef motions, uint instant, float along)
     return share * (lens.xy + lens.zw * along);
 }
 
-/// The step from where the middle set samples a plane to where another set does.
-/// \param blockSample,change of the sample (BlockSample)
-vec2 lookOfSet(InstantMotionsRef motions, BlockSample blockSample, BlockSample change, uint sample_, uint set) {
-    vec2 seen = change.place.x * (lensOf(motions, sample_ * kLensSets + set).zw -
-                                  lensOf(motions, sample_ * kLensSets + kMiddleLensSet).zw);
-    return unpackHalf2x16(blockSample.perX) * seen.x + unpackHalf2x16(blockSample.perY) * seen.y;
+/// From where the middle set samples a plane to where another set does.
+struct SetStep {
+    vec2 step_; // pixels
+    vec2 perY;  // its change per pixel down the block
+};
+
+/// A sloping plane is at another depth there, by which the lens moves it further (BlockSample).
+/// \param blockSample,change of the sample
+/// \param inBlock of the pixel, from the block's centre
+SetStep stepOfSet(
+    InstantMotionsRef motions, BlockSample blockSample, BlockSample change, uint sample_, uint set,
+    vec2 inBlock
+) {
+    vec2 own = lensOf(motions, sample_ * kLensSets + set).zw;
+    vec2 way = own - lensOf(motions, sample_ * kLensSets + kMiddleLensSet).zw;
+    vec2 slope = unpackHalf2x16(change.perX);
+    slope /= 1.0f + dot(slope, own);
+    float along = change.place.x - dot(slope, inBlock + change.place.x * way);
+    vec2 wayInRaster =
+        unpackHalf2x16(blockSample.perX) * way.x + unpackHalf2x16(blockSample.perY) * way.y;
+    return SetStep(wayInRaster * along, wayInRaster * -slope.y);
 }
 
 /// Alpha of a pixel whose samples have places of its own, for lens_filter.comp.

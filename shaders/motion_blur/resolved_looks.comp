@@ -58,6 +58,8 @@ const uint kMinInstants = 6u;
 const float kNoiseFromPx = 2.0f;
 const float kNoiseRampPx = 2.0f;
 // With a lens.
+/// How much a plane's circle of confusion may grow per pixel.
+const float kMaxSlopeOfLens = 0.5f;
 /// Distance between samples from which pixels have individual sets, which a filter then averages.
 const float kLensNoiseFromPx = 1.0f;
 /// Reach within which what a block sees counts as in focus and still, pixels.
@@ -166,6 +168,27 @@ BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x)
 
 vec2 centreOf(ivec2 block) { return (vec2(block) + 0.5f) * float(kGroupSize); }
 
+/// Depth at the instant of what a plane shows at a place of the raster.
+/// \param centre of its block, pixels
+float depthOf(BlockPlane plane, vec2 centre, InstantMotion motion, vec2 place) {
+    float along = plane.along + dot(plane.slope, place - centre);
+    vec4 point = pictureSpace(place, 1.0f / max(along, kMinAlong), true);
+    return dot(motion.instantFromRaster[2], point);
+}
+
+/// From the depths that the middle set sees a pixel to the right and below, PlaneMap::slope.
+/// \return false: by some place of the lens the plane folds over, or nearly
+bool findSlope(uint instant, inout PlaneMap map) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    vec2 perPixel = vec2(alongOf(map.slope.x, true), alongOf(map.slope.y, true)) -
+                    alongOf(map.depth, true);
+    map.slope = perPixel / (1.0f - dot(lensOf(motions, instant).zw, perPixel));
+    LensReach reach = reachOf(motions, instant / kLensSets);
+    float widest = length(max(abs(reach.low), abs(reach.high)));
+    // Written so that NaN is a fold.
+    return length(map.slope) * widest <= kMaxSlopeOfLens;
+}
+
 /// \return the block's sample positions at the instant; isAffine: it can see only one plane
 PlaneMap lookAt(
     ivec2 block, uint mover, vec2 alongs, InstantMotion motion, uint instant, bool perspective
@@ -199,9 +222,12 @@ PlaneMap lookAt(
             if (!isOne) return none;
         }
     if (kHasLens) {
-        float along = plane.along + dot(plane.slope, map.place - centreOf(middle));
-        vec4 place = pictureSpace(map.place, 1.0f / max(along, kMinAlong), true);
-        map.depth = dot(motion.instantFromRaster[2], place);
+        map.depth = depthOf(plane, centreOf(middle), motion, map.place);
+        map.slope = vec2(
+            depthOf(plane, centreOf(middle), motion, map.place + map.perX),
+            depthOf(plane, centreOf(middle), motion, map.place + map.perY)
+        );
+        if (!findSlope(instant, map)) return none;
         map.place += shiftForInterpolation(
             InstantMotionsRef(method.motions), instant, alongOf(map.depth, true)
         );
@@ -383,14 +409,14 @@ Spread measureSpread(BlockSearch search, uint lane) {
 }
 
 /// With a lens: how the places at which other sets sample a plane differ from the middle set's.
-/// \param depth at the instant of what the block's centre sees
-BlockSample findChange(uint sample_, float depth) {
+/// \param map at the instant
+BlockSample findChange(uint sample_, PlaneMap map) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    float along = alongOf(depth, true);
+    float along = alongOf(map.depth, true);
     vec2 confusion = motions.value.confusion;
     float share = 1.0f - shareForInterpolation(abs(confusion.x - confusion.y * along));
     float focus = reachOf(motions, sample_).inverseFocus;
-    return BlockSample(vec2(share * (focus - along), 0.0f), 0u, 0u);
+    return BlockSample(vec2(share * (focus - along), 0.0f), packHalf2x16(map.slope), 0u);
 }
 
 /// Finds and stores the block sample of one instant. \return where the block samples, if that is a plane
@@ -425,7 +451,7 @@ PlaneMap findBlockSample(BlockSearch search, uint instant) {
     }
     uint index = search.firstSample + 2u * (instant / kLensSets);
     uBlockSamples[index] = blockSample;
-    if (map.isAffine) uBlockSamples[index + 1u] = findChange(instant / kLensSets, map.depth);
+    if (map.isAffine) uBlockSamples[index + 1u] = findChange(instant / kLensSets, map);
     return map;
 }
 

@@ -374,9 +374,10 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
         if (blockSample.perX != kSearchedBlock) {
             vec2 at = samplePlace(blockSample, pixel.inBlock);
             if (kHasLens && pixel.set != kMiddleLensSet)
-                at += lookOfSet(
-                    InstantMotionsRef(method.motions), blockSample, uBlockSamples[index + 1u], sample_, pixel.set
-                );
+                at += stepOfSet(
+                    InstantMotionsRef(method.motions), blockSample, uBlockSamples[index + 1u],
+                    sample_, pixel.set, pixel.inBlock
+                ).step_;
             return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true);
         }
         slots = blockSample.perY;

@@ -63,9 +63,14 @@ void addThroughLens(ivec2 pixel, uint firstSample, vec2 inBlock, inout vec3 sums
         vec2 step_ = unpackHalf2x16(blockSample.perY) * float(kThreadRows);
         for (uint turn = 0u; turn < kTurns; ++turn) {
             uint set = lensSetOf(uvec2(pixel + ivec2(0, turn * kThreadRows)));
-            vec2 own = at + lookOfSet(motions, blockSample, change, i, set);
+            vec2 below = vec2(0.0f, float(turn * kThreadRows));
+            SetStep own = stepOfSet(motions, blockSample, change, i, set, inBlock + below);
+            vec2 first = at + own.step_ + step_ * float(turn);
+            vec2 perTurns = (step_ + own.perY * float(kThreadRows)) * float(kTurns);
             for (uint row = turn; row < kRows; row += kTurns)
-                sums[row] += textureLod(uColor, (own + step_ * float(row)) * pixelsToUv, 0.0f).rgb;
+                sums[row] += textureLod(
+                    uColor, (first + perTurns * float(row / kTurns)) * pixelsToUv, 0.0f
+                ).rgb;
         }
     }
 }
