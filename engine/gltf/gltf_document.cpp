@@ -54,7 +54,7 @@ GltfChunks splitGlb(std::span<const uint8_t> bytes) {
     const uint32_t length = readU32(bytes, 8);
     if (length > bytes.size()) {
         failGltf(
-            "the GLB header says {} but the file has {}",
+            "the GLB header states {} but the file has {}",
             core::countOf(length, "byte"),
             bytes.size()
         );

@@ -106,7 +106,7 @@ void addReplayCommand(CLI::App& app, int& exitStatus) {
         "--aov", arguments->aov, "intermediates to write next to --out, comma-separated, or all"
     );
     command->add_flag(
-        "--explain", arguments->explain, "say what each frame is drawn from, and check its inputs"
+        "--explain", arguments->explain, "print what each frame is drawn from, and check its inputs"
     );
     command->add_flag(
         "--show-inputs",

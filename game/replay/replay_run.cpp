@@ -368,8 +368,8 @@ class Player {
                 image.height
             );
         if (frame.reveal == DumpedReveal::Own && settings != frame.settings)
-            fmt::print("  where other pixels ask than the host answered, the reveal is undefined\n"
-            );
+            fmt::print("  where pixels need an answer that the host did not give, the reveal is "
+                       "undefined\n");
     }
 
     void compare(

@@ -178,7 +178,7 @@ TEST_F(EmbeddedRefusals, EachBadImageIsNamed) {
     });
     refuse("motionDepth.format is", [](auto& in) { std::swap(in.color, in.motionDepth); });
     refuse("color.samples is 4", [](auto& in) { in.color.samples = VK_SAMPLE_COUNT_4_BIT; });
-    refuse("color.extent is 40 x 20, all of which is used where area is not said", [](auto& in) {
+    refuse("color.extent is 40 x 20, all of which is used without an area", [](auto& in) {
         in.color.extent = {40, 20};
     });
     refuse("motionDepth is part of a larger image", [](auto& in) {
@@ -203,7 +203,7 @@ TEST_F(EmbeddedRefusals, EachBadImageIsNamed) {
     const uint32_t most = device().limits().maxImageDimension2D;
     if (most < 32768) {
         refuse("the device's maxImageDimension2D", [&](HostInputs& in) { in.width = most + 1; });
-        refuse("color is said to be ", [&](HostInputs& in) {
+        refuse("color.extent is ", [&](HostInputs& in) {
             in.color.extent = {most + 1, 24};
             in.color.area.extent = {40, 24};
         });
@@ -609,13 +609,13 @@ TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
     for (int again = 0; again < 2; ++again)
         submitCleared([&](VkCommandBuffer commands) {
             EXPECT_TRUE(mBlur->record(commands, 0, inputs, settings).ok());
-            EXPECT_EQ(countReported("not declared"), 1u)
+            EXPECT_EQ(countReported("cannot check"), 1u)
                 << "once, before its commands are submitted";
         });
     EXPECT_EQ(
         countReported(
-            "motion blur check: the usage of color, output, and the samples of color, output,"
-            " motionDepth are not declared"
+            "motion blur check: cannot check the usage of color, output, nor the samples of color, "
+            "output, motionDepth: set both fields"
         ),
         1u
     );
@@ -624,7 +624,7 @@ TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
     for (motion_blur::HostImage* image : {&inputs.color, &inputs.motionDepth, &inputs.output})
         image->samples = VK_SAMPLE_COUNT_1_BIT;
     EXPECT_TRUE(record().ok());
-    EXPECT_EQ(countReported("not declared"), 0u) << "all is declared";
+    EXPECT_EQ(countReported("cannot check"), 0u) << "all is declared";
 }
 
 TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
@@ -675,7 +675,7 @@ TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {
     });
     mC.reset();
     for (const char* part :
-         {"the usage of vectors, depth, and the samples of",
+         {"the usage of vectors, depth, nor the samples of",
           "without cameras, vectors and depth are not compared"})
         EXPECT_NE(all.find(part), std::string::npos) << all;
 }

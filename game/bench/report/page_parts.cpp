@@ -51,7 +51,7 @@ fillPage(std::string_view page, const std::map<std::string, std::string_view>& v
         const std::string name(page.substr(open + 2, close - open - 2));
         const auto value = values.find(name);
         if (value == values.end())
-            return core::makeError("the page asks for '{}', which has no value", name);
+            return core::makeError("the page needs '{}', which has no value", name);
         filled += value->second;
         used.insert(name);
         page.remove_prefix(close + 2);

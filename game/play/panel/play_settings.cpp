@@ -195,7 +195,7 @@ core::SettingRows<PlaySettings> listPlayRows() {
          &S::uiScale,
          "x",
          {.lowest = 0.5, .highest = 4},
-         "Size of text and panel, on top of what the display's resolution asks for.",
+         "Size of text and panel, in addition to the display's own scale.",
          "Text size"},
         {"showPanel", &S::showPanel, "", {}, "This panel (F1).", "Panel"},
     };

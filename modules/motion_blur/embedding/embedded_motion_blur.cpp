@@ -47,7 +47,7 @@ core::Status checkHost(const HostDevice& host) {
             VK_API_VERSION_MINOR(host.apiVersion)
         );
     if (host.rayTier != gpu::RayTier::None && !host.sceneLayout)
-        return makeError("motion blur: sceneLayout is null, although rayTier asks for rays");
+        return makeError("motion blur: sceneLayout is null, although rayTier requires rays");
     if (host.enabledFeatures)
         SHUTTER_TRY(checkEnabledFeatures(*host.enabledFeatures));
     SHUTTER_TRY(checkHostDevice(host.physical, host.queueFamily));

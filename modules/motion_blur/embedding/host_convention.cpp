@@ -82,7 +82,7 @@ core::Status checkProjection(
     if (!camera && motion_blur::normalize(key, !aheadIsPlusZ))
         return makeError(
             "motion blur: cameras.{} looks along {}Z, cameras.aheadIsPlusZ "
-            "says {}Z",
+            "means {}Z",
             name,
             aheadIsPlusZ ? "-" : "+",
             aheadIsPlusZ ? "+" : "-"

@@ -105,7 +105,7 @@ core::Status checkArea(const HostImage& image, const HostImageRule& rule, VkExte
             hasArea(image) ? "area.extent" : "extent",
             area.extent.width,
             area.extent.height,
-            hasArea(image) ? "" : ", all of which is used where area is not said",
+            hasArea(image) ? "" : ", all of which is used without an area",
             picture.width,
             picture.height
         );
@@ -199,7 +199,7 @@ core::Status checkDevice(
     const VkExtent2D extent = extentOf(image, picture);
     if (extent.width > limits.mostPixels || extent.height > limits.mostPixels)
         return makeError(
-            "motion blur: {} is said to be {} x {}, the device's images are at most {} wide and "
+            "motion blur: {}.extent is {} x {}, the device's images are at most {} wide and "
             "high",
             rule.name,
             extent.width,

@@ -216,8 +216,8 @@ core::Status checkIds(const HostInputs& inputs, const Method& method, const Host
         return {};
     if (method.readsInstantMotions && !inputs.entityId.image)
         return makeError(
-            "motion blur: entityId.image is null, although movers has {}: ids say which "
-            "pixels are theirs",
+            "motion blur: entityId.image is null, although movers has {}: ids mark their "
+            "pixels",
             core::countOf(inputs.motion.movers.size(), "row")
         );
     return check(inputs.entityId, kIdRule, pictureOf(inputs), host);

@@ -137,7 +137,7 @@ TEST(GltfDocument, DamagedGlbContainersAreRefused) {
     expectRefused(loadBytes("glTF"), "header is cut off");
     expectRefused(loadBytes(glb(json, 1)), "version 1");
     expectRefused(loadBytes(glb("")), "no JSON chunk");
-    expectRefused(loadBytes(glb(json).substr(0, 40)), "header says");
+    expectRefused(loadBytes(glb(json).substr(0, 40)), "header states");
     expectRefused(loadBytes(glb(chunk(kBin, "abcd", '\0'))), "first chunk is not JSON");
     expectRefused(loadBytes(glb(json + json)), "two JSON chunks");
     expectRefused(

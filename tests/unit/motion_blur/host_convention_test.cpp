@@ -359,7 +359,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     );
     refuse(
         [](C& c) { c.cameras.clipFromView = aheadPlusZ(); },
-        "clipFromView looks along +Z, cameras.aheadIsPlusZ says -Z"
+        "clipFromView looks along +Z, cameras.aheadIsPlusZ means -Z"
     );
     refuse(
         [](C& c) {

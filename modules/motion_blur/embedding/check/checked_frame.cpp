@@ -231,7 +231,7 @@ void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Findi
          fmt::format(
              "followsLast is false, although {} recordings of view {} in a row go on where "
              "the one before ended: set it where that shows the frame before, or what this frame "
-             "hides is not looked up there; if no history is wanted, say history = false",
+             "hides is not looked up there; if no history is wanted, set history = false",
              now.unusedHistory,
              facts.view
          )}

@@ -156,7 +156,7 @@ void checkChangingIds(
          fmt::format(
              "entityId changed at {} of {} samples whose surface the frame before shows as well, "
              "as "
-             "from {} to {}: an entity keeps its id, or rowIds says which row it has",
+             "from {} to {}: an entity keeps its id, or rowIds names the row that it has",
              changed,
              found,
              example.first,

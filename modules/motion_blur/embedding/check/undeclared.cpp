@@ -78,19 +78,18 @@ void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message
     }
     if (!usages.empty() || !samples.empty())
         message(fmt::format(
-            "motion blur check: {}{}{}{}{} not declared, so it cannot be checked: say what the "
-            "images were made with, and what is missing is refused by name instead of left to the "
-            "driver",
+            "motion blur check: cannot check {}{}{}{}: set both fields as the images were made, "
+            "and "
+            "a missing flag is refused by its name, not left to the driver",
             usages.empty() ? "" : "the usage of ",
             usages,
-            usages.empty() || samples.empty() ? "" : ", and ",
-            samples.empty() ? "" : "the samples of " + samples,
-            usages.empty() || samples.empty() ? " is" : " are"
+            usages.empty() || samples.empty() ? "" : ", nor ",
+            samples.empty() ? "" : "the samples of " + samples
         ));
     if (!extents.empty())
         message(fmt::format(
             "motion blur check: the extent of {} is not declared, and the image's memory is that "
-            "of a much larger one than {} x {}: say how large it is, and the area of it that is "
+            "of a much larger one than {} x {}: set its size there, and the area of it that is "
             "used",
             extents,
             picture.width,
