@@ -152,10 +152,10 @@ def sort_rows(section):
     return sorted(section.rows, key=lambda row: (methods.index(row[0]), row[1] or 0, smoothings.index(row[2])))
 
 
-def table_lines(section, headings, keys):
+def table_lines(section, corner, headings, keys):
     """A table whose columns are headings, filled by the cells that keys name."""
     has_smoothing = len({smoothing for _, _, smoothing in section.rows}) > 1
-    head = ["method"] + (["`--aa`"] if has_smoothing else []) + headings
+    head = [corner] + (["`--aa`"] if has_smoothing else []) + headings
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for method, samples, smoothing in sort_rows(section):
         row = section.rows[method, samples, smoothing]
@@ -172,15 +172,14 @@ def section_lines(key, section):
     shots = list(section.shots)
     if len(shots) == 1:
         columns = list(section.columns)
-        lines += [f"`{shots[0]}`:", ""]
-        lines += table_lines(section, [section.columns[name] for name in columns],
+        lines += table_lines(section, f"method on `{shots[0]}`", [section.columns[name] for name in columns],
                              [(shots[0], name) for name in columns])
         return lines + [""]
     for name, heading in section.columns.items():
         if name in METRICS_OF_ONE_SHOT:
             continue
         lines += [f"{heading}:", ""]
-        lines += table_lines(section, [f"`{shot}`" for shot in shots], [(shot, name) for shot in shots])
+        lines += table_lines(section, "method", [f"`{shot}`" for shot in shots], [(shot, name) for shot in shots])
         lines.append("")
     return lines
 

@@ -69,7 +69,7 @@ class Figures(unittest.TestCase):
     def test_a_shot_has_a_row_per_method_and_a_column_per_metric(self):
         page = self.make(self.write("run", example_results.make("paper")))
         self.assertIn("\n## Suite `paper`\n", page)
-        self.assertIn("\n| method | PSNR, dB | SSIM | FLIP |\n|---|---|---|---|\n", page)
+        self.assertIn("\n| method on `vase` | PSNR, dB | SSIM | FLIP |\n|---|---|---|---|\n", page)
         self.assertIn("\n| `hybrid` | 31.56 | 0.9841 | 0.0238 |\n", page)
 
     def test_methods_have_their_default_and_truths_the_counts_that_are_read(self):
@@ -96,7 +96,7 @@ class Figures(unittest.TestCase):
         films = self.write("films", example_results.make("sequence"))
         self.assertNotIn(", ms", self.make(paper, films))
         page = self.make("--timed", paper, films)
-        self.assertIn("\n| method | PSNR, dB | SSIM | FLIP | frame, ms | effect, ms |\n", page)
+        self.assertIn("\n| method on `vase` | PSNR, dB | SSIM | FLIP | frame, ms | effect, ms |\n", page)
         self.assertIn("\n| `hybrid` | 31.56 | 0.9841 | 0.0238 | 213.0 | 118.0 |\n", page)
         self.assertIn("times on 2 cores of synthetic CPU\n", page)
         self.assertNotIn(", ms", page[page.index("## Suite `sequence`"):])
@@ -134,6 +134,17 @@ class Figures(unittest.TestCase):
         self.assertEqual(page.count("\n- `shutter bench"), 2)
         self.assertIn("\n| `gather` | `taa` | 40.16 | 41.16 |\n", page)
         self.assertIn("\n| `hybrid` | `none` | 31.56 | 32.56 |\n", page)
+
+    def test_times_of_a_run_that_is_not_timed_stay_empty_next_to_a_timed_one(self):
+        runs = []
+        for wanted in ("gather", "hybrid"):
+            results = example_results.make("paper")
+            case = results["cases"][0]
+            case["measurements"] = [m for m in case["measurements"] if m["method"] == wanted]
+            runs.append(self.write(wanted, results))
+        page = self.make("--timed", runs[0], runs[1])
+        self.assertIn("\n| `gather` | 30.16 | 0.9810 | 0.0279 | 146.0 | 51.0 |\n", page)
+        self.assertIn("\n| `hybrid` | 31.56 | 0.9841 | 0.0238 |  |  |\n", page)
 
     def test_the_same_results_give_the_same_file(self):
         runs = [self.write(suite, example_results.make(suite)) for suite in ("paper", "sequence")]
