@@ -15,6 +15,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SUITES = ("paper", "hard", "sequence", "edges", "lens", "own")
+# Against the mean over the pixel, with each anti-aliasing, by default.
+SUITES_WITH_EDGES = ("edges", "lens")
 # Of methods whose error falls with each sample, these counts; of all others the default.
 SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised": (1, 4)}
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
@@ -33,8 +35,8 @@ class Section:
     """The cells of all runs with the same conditions."""
 
     def __init__(self):
-        self.runs = []
-        self.truths = {}  # ordered, without duplicates
+        self.runs = {}  # ordered, without duplicates, as are
+        self.truths = {}
         self.shots = {}
         self.rows = {}  # (method, sample count, anti-aliasing) to {(shot, column): text}
         self.columns = {}  # id to heading
@@ -85,16 +87,19 @@ def list_entries(results):
         yield entry, name.removesuffix(f"-{smoothing}") if smoothing != "none" else name, smoothing
 
 
+def describe_pixel(suite, pixel):
+    """The option of a pixel filter that is not the suite's own."""
+    return [f"--pixel {pixel}"] if (pixel == "box") != (suite in SUITES_WITH_EDGES) else []
+
+
 def describe_command(results):
     """The options of `shutter bench` that its results name."""
     settings = results["settings"]
     suite = results["suite"]
     words = ["shutter bench", "SCENE" if suite == "own" else f"--suite {suite}"]
-    has_edges = suite in ("edges", "lens")
-    if (settings["pixel"] == "box") != has_edges:
-        words.append(f"--pixel {settings['pixel']}")
+    words += describe_pixel(suite, settings["pixel"])
     smoothings = list(dict.fromkeys(smoothing for _, _, smoothing in list_entries(results)))
-    if smoothings != (["none", "taa", "box"] if has_edges else ["none"]):
+    if smoothings != (["none", "taa", "box"] if suite in SUITES_WITH_EDGES else ["none"]):
         words.append(f"--aa {','.join(smoothings)}")
     if (settings["width"], settings["height"]) != (640, 360):
         words.append(f"--size {settings['width']}x{settings['height']}")
@@ -106,10 +111,11 @@ def describe_command(results):
 
 def describe_run(results, is_timed):
     revision, device, machine = results["revision"], results["device"], results["machine"]
-    changed = ", with changes that no revision holds" if revision["dirty"] else ""
+    changed = " with uncommitted changes" if revision["dirty"] else ""
     times = f"times on {machine['cores']} cores of {machine['cpu']}" if is_timed else "times left out"
-    return (f"- `{describe_command(results)}`, {results['created'][:10]}, revision {revision['git']}{changed}: "
-            f"{device['name']}, {device['driver']}; {times}")
+    return (f"- `{describe_command(results)}`\n"
+            f"  on {results['created'][:10]}, revision {revision['git']}{changed};\n"
+            f"  {device['name']}, {device['driver']}; {times}")
 
 
 def describe_truth(entry):
@@ -126,8 +132,9 @@ def add_run(sections, folder, results, is_timed):
     size = f"{settings['width']}x{settings['height']}"
     key = (results["suite"], settings["pixel"], size, settings.get("truthSamples"))
     section = sections.setdefault(key, Section())
-    section.runs.append(describe_run(results, is_timed))
-    metrics = {metric["id"]: metric for metric in results.get("temporalMetrics", []) + results["metrics"]}
+    section.runs[describe_run(results, is_timed)] = True
+    # Films have metrics of their own, although the results list those of pictures too.
+    metrics = {metric["id"]: metric for metric in results.get("temporalMetrics") or results["metrics"]}
     shown = [metrics[name] for name in SHOWN_METRICS if name in metrics]
     for metric in shown:
         unit = f", {metric['unit']}" if metric["unit"] else ""
@@ -167,7 +174,7 @@ def table_lines(section, corner, headings, keys):
 
 def section_lines(key, section):
     suite, pixel, size, _ = key
-    lines = [f"## Suite `{suite}`" + (", mean over the pixel" if pixel == "box" else ""), ""]
+    lines = ["## Suite " + ", ".join(f"`{word}`" for word in [suite, *describe_pixel(suite, pixel)]), ""]
     lines += [f"{size} pixels; truth: {' or '.join(section.truths)}.", "", *section.runs, ""]
     shots = list(section.shots)
     if len(shots) == 1:
