@@ -110,6 +110,7 @@ class Figures(unittest.TestCase):
         self.assertIn("\n| method | `--aa` | `vase` | `pan` |\n|---|---|---|---|\n", psnr)
         self.assertIn("\n| `gather` | `none` | 30.16 | 31.16 |\n| `gather` | `taa` | 40.16 | 41.16 |\n", psnr)
         self.assertIn("\n| `gather` | `taa` | 41.16 | 42.16 |\n", linear)
+        self.assertNotIn("SSIM", page)
 
     def test_films_have_a_table_per_measure(self):
         results = example_results.make("sequence")
