@@ -11,7 +11,7 @@ using namespace shutter;
 int main(int argc, char** argv) {
     if (const auto exitStatus = game::runExternalCommand(argc, argv))
         return *exitStatus;
-    CLI::App app("Shutter: motion blur that is right", "shutter");
+    CLI::App app("Shutter: accurate motion blur", "shutter");
     app.require_subcommand(1);
     int exitStatus = game::kExitDone;
     game::addRenderCommand(app, exitStatus);

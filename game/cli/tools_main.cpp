@@ -9,7 +9,7 @@
 using namespace shutter;
 
 int main(int argc, char** argv) {
-    CLI::App app("Shutter: motion blur that is right", "shutter");
+    CLI::App app("Shutter: accurate motion blur", "shutter");
     app.require_subcommand(1);
     int exitStatus = game::kExitDone;
     replay::addReplayCommand(app, exitStatus);
