@@ -202,6 +202,10 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
         shot.framedAt = findFramingTime(options);
     shot.world.registry.add(shot.camera, options.shutter);
     SHUTTER_TRY(setLens(shot.world, shot.camera, options));
+    if (!options.fStop && shot.world.registry.has<scene::FocusMotion>(shot.camera) &&
+        !scene::hasLens(shot.world, shot.camera))
+        core::logWarning("focusDistance of the flythrough has no effect without fStop: the camera "
+                         "is a pinhole");
     // An environment picture lights a scene; a sky follows the scene's sun.
     if (options.environment.empty() && !shot.world.assets.environment)
         lightUnlitScene(shot.world);

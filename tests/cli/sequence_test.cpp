@@ -90,6 +90,12 @@ TEST_F(Sequence, AMethodWithoutALensSaysThatItDrawsAPinhole) {
     EXPECT_EQ(readFile("open_0.png"), readFile("option_0.png"));
     EXPECT_NE(readFile("open_0.png"), readFile("closed_0.png"));
     expectRefusal(with("auto_%d.png", {"--instants", "auto"}), 1, {"--instants auto", "--fstop 0"});
+    write(R"("focusDistance": 2)");
+    const Outcome pinhole = run(with("pinhole_%d.png", {}));
+    EXPECT_EQ(pinhole.status, 0);
+    EXPECT_NE(pinhole.err.find("focusDistance of the flythrough has no effect"), std::string::npos)
+        << pinhole.err;
+    EXPECT_EQ(readFile("pinhole_0.png"), readFile("closed_0.png"));
     write(R"("fStop": 0.5)");
     expectSuccess(with("far_%d.png", {"--focus", "100"}));
     EXPECT_NE(readFile("far_0.png"), readFile("open_0.png"));
