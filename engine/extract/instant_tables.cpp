@@ -3,7 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/extract/frame_view.h"
-#include "engine/extract/lens_pairs.h"
+#include "engine/math/lens_tables.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
@@ -65,8 +65,6 @@ class Builder {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
-        if (mView.usesLens)
-            describeLens(tables);
         tables.record = makeRasterRecord(mWorld, mView, mMotion, mFrame, mView.exposure.rasterTime);
         tables.raster = describeRaster(tables.rasterWays);
         if (last && isOfFrameBefore(mWorld, mView, mMotion, *last) &&
@@ -77,7 +75,7 @@ class Builder {
                 describeSecond(makeSecondRecord(*second), tables.record, tables.secondWays);
         tables.middles = poseMiddles(tables);
         if (mView.usesLens)
-            forgetStillness(tables);
+            addLens(tables);
         return tables;
     }
 
@@ -89,60 +87,29 @@ class Builder {
             mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
     }
 
-    /// Each instant has a place of the lens. From there the picture is the pinhole's, sheared.
-    void describePairs(InstantTables& tables) const {
-        const auto samples = uint32_t(mTimes.size());
-        ViewRequest view = mView;
-        tables.times.clear();
-        for (const LensPair& pair : spreadLensPairs(samples)) {
-            const double s = scene::invertLight(mView.exposure, pair.light);
-            view.lensPlace = pair.place;
-            const dmat4 shear = pictureFromWorldAt(mWorld, view, mMotion, s) *
-                                glm::inverse(pictureFromWorldAt(mWorld, mView, mMotion, s));
-            tables.times.push_back(float(s));
-            tables.lens.emplace_back(math::dvec2(shear[2]), math::dvec2(shear[3]));
-        }
-        const std::span<const math::vec4> lens = tables.lens;
-        for (uint32_t i = 0; i < samples; ++i)
-            tables.lensReaches.push_back(
-                describeReach(lens.subspan(i * shader::kLensSets, shader::kLensSets), mTimes[i])
-            );
-        tables.lensReaches.push_back(describeReach(lens, mTimes[samples / 2]));
-    }
-
-    shader::LensReach describeReach(std::span<const math::vec4> places, double s) const {
-        shader::LensReach reach{math::vec2(HUGE_VALF), math::vec2(-HUGE_VALF)};
-        for (const math::vec4& shift : places) {
-            reach.low = glm::min(reach.low, math::vec2(shift.z, shift.w));
-            reach.high = glm::max(reach.high, math::vec2(shift.z, shift.w));
-        }
-        reach.inverseFocus = float(1.0 / mMotion.cameraLens(s).focusDistance);
-        return reach;
-    }
-
-    void describeLens(InstantTables& tables) {
-        describePairs(tables);
-        const double s = mView.exposure.rasterTime;
-        const scene::CameraLens lens = mMotion.cameraLens(s);
+    [[nodiscard]] math::ThinLens describeLens(double s) const {
+        const scene::CameraLens& lens = mMotion.cameraLens(s);
         const double yFov = mMotion.cameraYFov(s);
-        const double pixelsPerUnit =
-            mView.height / (2.0 * computeHalfExtents(mCamera, yFov, mView).y);
-        const double radius = scene::computeLensRadius(lens, yFov) * pixelsPerUnit;
-        tables.confusion = math::vec2(math::dvec2(radius / lens.focusDistance, radius));
+        return {
+            math::measurePixelsPerUnit(
+                makeProjection(mCamera, yFov, mView), {mView.width, mView.height}
+            ),
+            scene::computeLensRadius(lens, yFov),
+            lens.focusDistance,
+            scene::describeAperture(lens)};
+    }
+
+    void addLens(InstantTables& tables) const {
+        std::vector<math::ThinLens> lenses;
+        for (const double s : mTimes)
+            lenses.push_back(describeLens(s));
+        math::addLens(lenses, describeLens(mView.exposure.rasterTime), tables);
     }
 
     RasterRecord makeSecondRecord(const InstantFrame& second) const {
         ViewRequest view = mView;
         view.jitterPx = second.jitterPx;
         return makeRasterRecord(mWorld, view, mMotion, second.frame, second.instant);
-    }
-
-    /// What a pinhole sees at rest is seen elsewhere from other places of the lens.
-    static void forgetStillness(InstantTables& tables) {
-        tables.raster.isStatic = false;
-        for (std::optional<LayerTables>* const layer : {&tables.second, &tables.last})
-            if (*layer)
-                (*layer)->isStatic = false;
     }
 
     [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {

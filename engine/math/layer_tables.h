@@ -38,6 +38,7 @@ struct InstantLayers {
     std::vector<float> times;          ///< shutter time of each instant, [0, 1]
     std::vector<vec4> lens;            ///< InstantMotions::lens; empty: there is none
     std::vector<shader::LensReach> lensReaches; ///< InstantMotions::lensReaches; the same
+    std::vector<vec2> lensPlaces;               ///< InstantMotions::lensPlaces; the same
     vec2 confusion{0.0f};                       ///< InstantMotions::confusion
     bool isPerspective = true; ///< the camera is, at every instant; false: orthographic
 };

@@ -60,7 +60,7 @@ using DrawWays = std::function<graph::ImageHandle(
 struct InstantMotions {
     VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
     uint32_t instantCount = 0; ///< countInstants() (settings.h)
-    /// Each instant has a place of the lens (extract::spreadLensPairs()), of which the raster is
+    /// Each instant has a place of the lens (math::spreadLensPairs()), of which the raster is
     /// taken from the middle.
     bool hasLens = false;
     bool hasLast = false;          ///< also of the raster in `history` or `lent`

@@ -88,6 +88,7 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     const VkDeviceSize times = layout.add(layers.times);
     const VkDeviceSize lens = layout.add(layers.lens);
     const VkDeviceSize lensReaches = layout.add(layers.lensReaches);
+    const VkDeviceSize lensPlaces = layout.add(layers.lensPlaces);
     const PlacedLayer raster = place(layout, layers.raster);
     std::optional<PlacedLayer> second;
     if (layers.second)
@@ -119,6 +120,8 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
         head[0].lens = gpu::splitAddress(buffer.address() + lens);
         buffer.write(std::span<const shader::LensReach>(layers.lensReaches), lensReaches);
         head[0].lensReaches = gpu::splitAddress(buffer.address() + lensReaches);
+        buffer.write(std::span<const glm::vec2>(layers.lensPlaces), lensPlaces);
+        head[0].lensPlaces = gpu::splitAddress(buffer.address() + lensPlaces);
     }
     head[0].confusion = layers.confusion;
     head[0].isPerspective = layers.isPerspective ? 1 : 0;

@@ -63,6 +63,9 @@ struct InstantMotions {
     // Address of LensReach[]: one per sample, and one of all, with the focus of the one in the
     // middle. 0: there is no lens.
     uvec2 lensReaches;
+    // Address of vec2[]: each instant's place of the lens, metres right and up in the picture. 0:
+    // there is no lens.
+    uvec2 lensPlaces;
 };
 
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.
@@ -88,7 +91,7 @@ SHUTTER_SHADER_END
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
 static_assert(sizeof(shutter::shader::LensReach) == 32);
-static_assert(sizeof(shutter::shader::InstantMotions) == 128);
+static_assert(sizeof(shutter::shader::InstantMotions) == 136);
 #endif
 
 #endif

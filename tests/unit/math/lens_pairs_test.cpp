@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/lens_pairs.h"
+#include "engine/math/lens_pairs.h"
 #include "shaders/common/instant_motion_shared.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace shutter::extract {
+namespace shutter::math {
 namespace {
 
 constexpr uint32_t kSets = shader::kLensSets;
 
 /// Which of count x rows equal parts of the lens a place is in.
-uint32_t partOf(const math::dvec2& place, uint32_t columns, uint32_t rows) {
+uint32_t partOf(const dvec2& place, uint32_t columns, uint32_t rows) {
     return uint32_t(place.y * rows) * columns + uint32_t(place.x * columns);
 }
 
@@ -50,7 +50,7 @@ TEST(LensPairs, SetsOfAnyNumberOfSamplesLieAboutTheMiddleOfTheLens) {
     for (const uint32_t samples : {1u, 7u, 15u, 24u, 32u}) {
         const auto pairs = spreadLensPairs(samples);
         for (uint32_t set = 0; set < kSets; ++set) {
-            math::dvec2 mean(0.0);
+            dvec2 mean(0.0);
             for (uint32_t i = 0; i < samples; ++i) {
                 const LensPair& pair = pairs[i * kSets + set];
                 EXPECT_GT(pair.light, 0.0);
@@ -64,4 +64,4 @@ TEST(LensPairs, SetsOfAnyNumberOfSamplesLieAboutTheMiddleOfTheLens) {
 }
 
 } // namespace
-} // namespace shutter::extract
+} // namespace shutter::math

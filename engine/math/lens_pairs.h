@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::math {
 
 /// A time of the exposure and a place of the lens.
 struct LensPair {
-    double light = 0.0;          ///< share of the exposure's light that comes before, (0, 1)
-    math::dvec2 place{0.0, 0.0}; ///< ViewRequest::lensPlace
+    double light = 0.0;    ///< share of the exposure's light that comes before, (0, 1)
+    dvec2 place{0.0, 0.0}; ///< of the unit square, for shader::aperturePoint()
 };
 
 /// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k, and has
@@ -21,4 +21,4 @@ struct LensPair {
 /// of a set, above 0
 [[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples);
 
-} // namespace shutter::extract
+} // namespace shutter::math

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/lens_pairs.h"
+#include "engine/math/lens_pairs.h"
 
 #include "engine/core/check.h"
 #include "shaders/common/instant_motion_shared.h"
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace shutter::extract {
+namespace shutter::math {
 
 namespace {
 
@@ -18,13 +18,13 @@ namespace {
 /// are a (0, m, 3)-net; aligned blocks of the sequence are nets, and so are runs of blocks. Where a
 /// block is not whole, its places move within their order along each axis until they are even
 /// again, about the middle.
-std::vector<math::dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
+std::vector<dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
     const uint32_t block = std::bit_ceil(samples);
     const double half = 0.5 / (block * shader::kLensSets);
-    std::vector<math::dvec2> places;
+    std::vector<dvec2> places;
     for (uint32_t i = 0; i < samples; ++i) {
-        const math::uvec2 point(shader::sobolPoint(set * block + i));
-        places.push_back(math::dvec2(point) * 0x1p-32 + half);
+        const uvec2 point(shader::sobolPoint(set * block + i));
+        places.push_back(dvec2(point) * 0x1p-32 + half);
     }
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<uint32_t> order(samples);
@@ -46,11 +46,11 @@ std::vector<LensPair> spreadLensPairs(uint32_t samples) {
     SHUTTER_CHECK(samples > 0, "no samples");
     std::vector<LensPair> pairs(size_t(samples) * shader::kLensSets);
     for (uint32_t set = 0; set < shader::kLensSets; ++set) {
-        const std::vector<math::dvec2> places = spreadPlaces(samples, set);
+        const std::vector<dvec2> places = spreadPlaces(samples, set);
         for (uint32_t i = 0; i < samples; ++i)
             pairs[i * shader::kLensSets + set] = {(i + 0.5) / samples, places[i]};
     }
     return pairs;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::math
