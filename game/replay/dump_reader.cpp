@@ -156,9 +156,34 @@ uint64_t readId(const JsonNode& node) {
     return id;
 }
 
+/// The values are checked by the recording, as a host's are.
+void readLens(const JsonNode& node, DumpFrame& frame) {
+    const JsonObject object = node.readObject(
+        {"radius",
+         "focusDistance",
+         "focusDistances",
+         "bladeRotation",
+         "roundness",
+         "squeeze",
+         "blades"}
+    );
+    motion_blur::HostLens& lens = frame.motion.lens;
+    lens.radius = object.require("radius").readNumber();
+    // It does not count, and may be anything, where there is one per key.
+    const JsonNode distance = object.require("focusDistance");
+    lens.focusDistance = distance.isNull() ? 0.0 : distance.readNumber();
+    for (const JsonNode& one : object.require("focusDistances").readArray())
+        frame.focusDistances.push_back(one.readNumber());
+    lens.bladeRotation = object.require("bladeRotation").readNumber();
+    lens.roundness = object.require("roundness").readNumber();
+    lens.squeeze = object.require("squeeze").readNumber();
+    lens.blades = uint32_t(object.require("blades").readInteger(0, 16));
+}
+
 void readMotion(const JsonNode& node, DumpFrame& frame) {
-    const JsonObject object =
-        node.readObject({"aheadIsPlusZ", "rowCount", "followsLast", "keys", "movers", "rowIds"});
+    const JsonObject object = node.readObject(
+        {"aheadIsPlusZ", "rowCount", "followsLast", "keys", "movers", "rowIds", "lens"}
+    );
     frame.hasMotion = true;
     frame.motion.aheadIsPlusZ = object.require("aheadIsPlusZ").readBoolean();
     frame.motion.rowCount = uint32_t(object.require("rowCount").readInteger(1, (1 << 24) - 1));
@@ -188,6 +213,9 @@ void readMotion(const JsonNode& node, DumpFrame& frame) {
         frame.rowIds.push_back(readId(one));
     if (!frame.rowIds.empty() && frame.rowIds.size() != frame.motion.rowCount)
         ids.fail("must have one id for each of the {} rows, or none", frame.motion.rowCount);
+    const auto lens = object.find("lens"); // older dumps have none
+    if (lens && !lens->isNull())
+        readLens(*lens, frame);
 }
 
 void readSettings(const JsonObject& root, motion_blur::MotionBlurSettings& settings) {

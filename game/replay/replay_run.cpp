@@ -203,6 +203,7 @@ class Player {
             mMovers.push_back({frame.moverRows[i], frame.moverMatrices[i]});
         inputs.motion.movers = mMovers;
         inputs.motion.rowIds = frame.rowIds;
+        inputs.motion.lens.focusDistances = frame.focusDistances;
         if (frame.reveal == DumpedReveal::Own)
             inputs.reveal = mReveal.answer(frame);
         if (frame.drawn)
@@ -241,6 +242,8 @@ class Player {
         mReadback.reset();
         mTickets.clear();
         HostInputs inputs = describe(frame);
+        if (!settings.method->readsLens)
+            inputs.motion.lens = {}; // another method than the host's
         SHUTTER_TRY(giveResponse(frame, inputs));
         SHUTTER_TRY(checkDraws(frame, inputs, settings));
         inputs.showsInputs = mOptions.showsInputs;
@@ -333,7 +336,7 @@ class Player {
     void explain(const DumpFrame& frame, const MotionBlurSettings& settings) const {
         const auto yes = [](bool is, const char* what) { return is ? what : ""; };
         fmt::print(
-            "{}: {} x {}, view {}, {}{}{}{}\n",
+            "{}: {} x {}, view {}, {}{}{}{}{}\n",
             frame.name,
             frame.width,
             frame.height,
@@ -344,7 +347,8 @@ class Player {
                                       : ", motion and depth made of the host's own",
             yes(frame.motion.followsLast && settings.history &&
                     settings.method->readsInstantMotions,
-                ", looks up the frame before")
+                ", looks up the frame before"),
+            yes(frame.motion.lens.isOpen() && settings.method->readsLens, ", through a lens")
         );
         for (const auto& row : motion_blur::listSettingRows()) {
             const auto& used = settings.method->settings;

@@ -53,9 +53,12 @@ void main() {
         if (!(answer.a > 0.0f)) continue;
         mean.sum += storableColor(answer.rgb);
         ++mean.known;
+        if (kHasLens) // alpha is the depth of what the host found
+            mean.confusionPx =
+                min(mean.confusionPx, confusionAt(InstantMotionsRef(method.motions), answer.a));
         ++answered;
     }
     if (answered == 0u) return;
     atomicAdd(uCounters.rays, answered);
-    imageStore(uBlurred, pixel, vec4(mean.sum / float(mean.known), 1.0f));
+    imageStore(uBlurred, pixel, vec4(mean.sum / float(mean.known), alphaOf(search, mean)));
 }

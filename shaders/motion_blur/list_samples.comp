@@ -26,6 +26,8 @@ layout(binding = 25, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
 /// Where each listed pixel's samples begin in the list; kNoSamples: it requests none.
 layout(binding = 26, scalar) writeonly buffer FirstSamples { uint uFirst[]; };
 layout(binding = 27, scalar) buffer Groups { DispatchArguments uGroups; };
+/// By sample, with a lens: its place there, metres right and up in the picture.
+layout(binding = 28, scalar) writeonly buffer LensPlaces { vec2 uPlaces[]; };
 
 const uint kMaxChunks = 8u; // of 32 samples
 
@@ -68,7 +70,9 @@ void main() {
     for (uint chunk = 0u; chunk * 32u < params.sampleCount; ++chunk)
         for (uint left = traced[chunk]; left != 0u && slot < uHeader.capacity; left &= left - 1u) {
             uint taken = chunk * 32u + uint(findLSB(left));
-            uAsked[slot] = AskedSample(entry.x, timeOf(motions, instantOf(search, taken)));
+            uint instant = instantOf(search, taken);
+            uAsked[slot] = AskedSample(entry.x, timeOf(motions, instant));
+            if (kHasLens) uPlaces[slot] = LensPlaceTable(motions.value.lensPlaces).places[instant];
             uAnswers[slot] = vec4(0.0f);
             ++slot;
         }

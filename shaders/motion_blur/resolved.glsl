@@ -34,6 +34,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Le
     vec4 shifts[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LensPlaceTable {
+    vec2 places[];
+};
+
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LensReachTable {
     LensReach reaches[];
 };

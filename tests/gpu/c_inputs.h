@@ -123,6 +123,15 @@ struct InputsForC {
         inputs.rowCount = motion.rowCount;
         inputs.rowIds = motion.rowIds.empty() ? nullptr : motion.rowIds.data();
         inputs.followsLast = motion.followsLast ? VK_TRUE : VK_FALSE;
+        ShutterBlurLens& lens = inputs.lens;
+        lens.radius = motion.lens.radius;
+        lens.focusDistance = motion.lens.focusDistance;
+        if (!motion.lens.focusDistances.empty())
+            lens.focusDistances = motion.lens.focusDistances.data();
+        lens.bladeRotation = motion.lens.bladeRotation;
+        lens.roundness = motion.lens.roundness;
+        lens.squeeze = motion.lens.squeeze;
+        lens.blades = motion.lens.blades;
         inputs.cameras.aheadIsPlusZ = motion.aheadIsPlusZ ? VK_TRUE : VK_FALSE;
     }
 

@@ -76,6 +76,18 @@ TEST_F(CInterface, OlderStructuresAreTaken) {
     static_assert(kEnd < offsetof(ShutterBlurInputs, responsePoints), "there was padding");
     std::memset(reinterpret_cast<std::byte*>(&inputs) + kEnd, 0x5A, sizeof(inputs) - kEnd);
     record(c, inputs);
+    // One that ended before the lens: in padding, too, nothing is taken for one.
+    inputs = reported.inputs;
+    constexpr size_t kLast = offsetof(ShutterBlurInputs, blendedOpacityInAlpha) + sizeof(VkBool32);
+    static_assert(kLast < offsetof(ShutterBlurInputs, lens), "there was padding");
+    inputs.structBytes = offsetof(ShutterBlurInputs, lens);
+    std::memset(reinterpret_cast<std::byte*>(&inputs) + kLast, 0x5A, sizeof(inputs) - kLast);
+    record(c, inputs);
+    static_assert(
+        offsetof(ShutterBlurPlan, hasLens) ==
+            offsetof(ShutterBlurPlan, blendedOpacityInAlpha) + sizeof(VkBool32),
+        "an older plan had no padding"
+    );
     ShutterBlurMemory memory = shutterBlurDefaultMemory();
     ASSERT_EQ(shutterBlurGetMemory(c.blur, &memory), SHUTTER_BLUR_SUCCESS);
     EXPECT_GT(memory.bytes, 0u);

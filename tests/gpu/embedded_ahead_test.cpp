@@ -76,6 +76,7 @@ struct Host : test::HostFrame {
             in.blended = in.normal;
             in.normal = {};
         }
+        in.motion.lens.radius = plan.hasLens ? 0.05 : 0.0;
         return in;
     }
 
@@ -97,6 +98,10 @@ MotionBlurSettings settingsOf(const char* method) {
     return test::settingsOf(method, 7);
 }
 
+/// Of a host with a lens.
+constexpr const char* kThroughLens = "resolved through a lens";
+constexpr const char* kRaysThroughLens = "adaptive through a lens";
+
 /// Of a host without ids, in whose world nothing moves by itself.
 constexpr const char* kStillWorld = "resolved without ids";
 
@@ -105,7 +110,15 @@ HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     const bool isStatic = method == kStillWorld;
     const bool draws = method == kDrawing;
     const bool blends = method == kBlending;
-    plan.settings = settingsOf(isStatic || draws ? "resolved" : blends ? "gather" : method);
+    plan.hasLens = method == kThroughLens || method == kRaysThroughLens;
+    const bool isResolved = isStatic || draws || method == kThroughLens;
+    const bool isAdaptive = method == kRaysThroughLens;
+    plan.settings = settingsOf(
+        isResolved   ? "resolved"
+        : isAdaptive ? "adaptive"
+        : blends     ? "gather"
+                     : method
+    );
     if (isStatic)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
@@ -143,7 +156,15 @@ class EmbeddedAhead : public test::EmbeddedTest {
 TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
         for (const char* method :
-             {"gather", "hybrid", "resolved", "adaptive", kStillWorld, kDrawing, kBlending}) {
+             {"gather",
+              "hybrid",
+              "resolved",
+              "adaptive",
+              kStillWorld,
+              kDrawing,
+              kBlending,
+              kThroughLens,
+              kRaysThroughLens}) {
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
             const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
@@ -170,13 +191,24 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
     plan = planOf("resolved", 64, 64);
     plan.viewCount = 3;
     refuse(plan, "plan.viewCount is 3");
+    plan = planOf("gather", 64, 64);
+    plan.hasLens = true;
+    refuse(plan, "the method gather has no lens");
     plan = planOf("denoised", 64, 64);
     refuse(plan, "denoised");
 }
 
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
     for (const char* method :
-         {"gather", "hybrid", "resolved", "adaptive", kStillWorld, kDrawing, kBlending})
+         {"gather",
+          "hybrid",
+          "resolved",
+          "adaptive",
+          kStillWorld,
+          kDrawing,
+          kBlending,
+          kThroughLens,
+          kRaysThroughLens})
         for (const bool isAsynchronous : {false, true}) {
             SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());
@@ -197,6 +229,11 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
                 for (uint32_t frame = 0; frame < count; ++frame)
                     EXPECT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok()
                     );
+                if (!plan.hasLens)
+                    return;
+                HostInputs pinhole = host.inputs(plan); // a host may close it, too
+                pinhole.motion.lens = {};
+                EXPECT_TRUE(draw(*blur, host, 0, pinhole, plan.settings).ok());
             };
             const Asked<&vkCreateComputePipelines> pipelines;
             drawFrames(4);
@@ -247,16 +284,20 @@ TEST_F(EmbeddedAhead, ABudgetReducesQualityUntilItIsMet) {
     const auto blur = createMeasuring();
     const Host host(device(), 96, 64);
     HostInputs in = host.inputs();
-    in.budget.milliseconds = 1e-6; // nothing fits
-    std::string droppedQuality;
-    for (uint32_t frame = 0; frame < 8; ++frame) {
-        ASSERT_TRUE(draw(*blur, host, frame % 2, in, settingsOf("resolved")).ok());
-        droppedQuality = blur->report(frame % 2).value().droppedQuality;
-        if (frame == 0) {
-            EXPECT_EQ(droppedQuality, "");
+    for (const double radius : {0.0, 0.05}) { // the cheapest methods have no lens
+        in.motion.lens.radius = radius;
+        in.budget.milliseconds = radius == 0.0 ? 1e-6 : 2e-6; // nothing fits
+        std::string droppedQuality;
+        for (uint32_t frame = 0; frame < 8; ++frame) {
+            ASSERT_TRUE(draw(*blur, host, frame % 2, in, settingsOf("resolved")).ok());
+            droppedQuality = blur->report(frame % 2).value().droppedQuality;
+            if (frame == 0) {
+                EXPECT_EQ(droppedQuality, "");
+            }
         }
+        EXPECT_NE(droppedQuality, "");
+        EXPECT_NE(droppedQuality.find("all but"), std::string::npos) << droppedQuality;
     }
-    EXPECT_NE(droppedQuality, "");
     in.budget.milliseconds = 1e6; // a new budget restarts
     ASSERT_TRUE(draw(*blur, host, 0, in, settingsOf("resolved")).ok());
     EXPECT_EQ(blur->report(0).value().droppedQuality, "");

@@ -104,6 +104,7 @@ class EmbeddedDump : public test::EmbeddedTest {
         if (mHasVectors)
             inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
+        inputs.motion.lens = mLens;
         inputs.responsePoints = mResponse;
         inputs.motion.response = mTable ? &*mTable : nullptr;
         if (mIsPacked) {
@@ -172,6 +173,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     bool mHasIds = true;
     double mFirstKey = 0.0; ///< its time
     bool mIsCut = false;
+    motion_blur::HostLens mLens;
     bool mIsPacked = false; ///< vectors and depth are one image
 };
 
@@ -188,6 +190,7 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
         std::function<void()> change;
     };
 
+    const std::vector<double> focuses{2.0, 4.0};
     const std::vector<math::ResponsePoint> points{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
     for (const Case& one : std::vector<Case>{
              {"plain", test::gather(), [] {}},
@@ -207,7 +210,12 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
              {"the same, packed", test::gather(), [&] { mIsPacked = true; }},
              {"the camera alone, packed", test::settingsOf("rosado2007"), [&] { mIsCut = false; }},
              {"the camera alone", test::settingsOf("rosado2007"), [&] { mIsPacked = false; }},
-             {"no vectors", resolvedWithNoise(), [&] { mHasVectors = false; }}}) {
+             {"no vectors", resolvedWithNoise(), [&] { mHasVectors = false; }},
+             {"a lens", test::settingsOf("resolved", 5), [&] { mLens = {.radius = 0.04}; }},
+             {"a focus that is pulled",
+              test::settingsOf("resolved", 5),
+              [&] { mLens = {.radius = 0.04, .focusDistances = focuses, .blades = 5}; }},
+             {"a closed lens", test::settingsOf("resolved", 5), [&] { mLens = {}; }}}) {
         SCOPED_TRACE(one.name);
         one.change();
         startDump(1);
@@ -230,6 +238,37 @@ TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
         const image::Image third = draw(2, resolvedWithNoise());
         expectReplayed({second, third});
     }
+}
+
+TEST_F(EmbeddedDump, OlderDumpsWithoutALensAndOtherMethodsAreReplayedAsByAPinhole) {
+    mHasVectors = false;
+    const motion_blur::MotionBlurSettings settings = test::settingsOf("resolved", 5);
+    const image::Image pinhole = draw(0, settings);
+    mLens = {.radius = 0.04};
+    startDump(1);
+    EXPECT_FALSE(test::sameBits(draw(0, settings), pinhole));
+    replay::ReplayOptions options;
+    options.folder = mFolder;
+    options.out = mFolder / "replayed.exr";
+    options.change = [](motion_blur::MotionBlurSettings& changed) -> core::Status {
+        changed.method = &motion_blur::getMethod("gather");
+        return {};
+    };
+    const core::Status byGather = replay::replay(options, device());
+    EXPECT_TRUE(byGather.ok()) << byGather.error().message;
+    const fs::path file = mFolder / "frame_0000.json";
+    const auto bytes = io::readFileBytes(file, 1 << 20);
+    ASSERT_TRUE(bytes.ok());
+    std::string text(bytes.value().begin(), bytes.value().end());
+    const size_t at = text.find(",", text.find("\"rowIds\""));
+    const size_t end = text.find("}", text.find("\"lens\"")) + 1;
+    ASSERT_LT(at, end);
+    text.erase(at, end - at);
+    ASSERT_TRUE(io::writeFileText(file, text).ok());
+    options.change = nullptr;
+    const core::Status older = replay::replay(options, device());
+    ASSERT_TRUE(older.ok()) << older.error().message;
+    EXPECT_TRUE(test::sameBits(io::readImage(mFolder / "replayed.exr").value(), pinhole));
 }
 
 TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {

@@ -226,6 +226,12 @@ TEST_F(EmbeddedRefusals, EachBadNumberOfTheInputsIsNamed) {
     refuse("responsePoints is null", [](CInputs& in) { in.responsePointCount = 2; });
     refuse("keys is null, keyCount is 1", [](CInputs& in) { in.keyCount = 1; });
     refuse("movers is null, moverCount is 2", [](CInputs& in) { in.moverCount = 2; });
+    refuse("lens.radius is 0.01, but the method gather has no lens", [](HostInputs& in) {
+        in.motion.lens.radius = 0.01;
+    });
+    refuse("lens.radius is 0.01, but the method gather has no lens", [](CInputs& in) {
+        in.lens.radius = 0.01;
+    });
     refuse("motion blur: view is 7", [](CInputs& in) { in.view = 7; });
     refuse("motionDepth.image is null, and so are vectors.image and depth.image", [](CInputs& in) {
         in.motionDepth = {};

@@ -56,6 +56,8 @@ class HostOfTheGBuffer : public render::PostEffect {
     /// Describes the motion in the frame. Referenced objects must live until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
+    bool dropsIds = false; ///< the host has none
+
     /// Turns the rays that are handed in into a reveal of the host's own.
     std::function<void(motion_blur::HostInputs&)> takeRays;
     /// Adds further inputs of the host. Referenced objects must live until the frame has ended.
@@ -123,7 +125,8 @@ class HostOfTheGBuffer : public render::PostEffect {
                 given.color = give(data.color);
                 given.motionDepth = give(data.motionDepth);
                 given.normal = give(data.normal);
-                given.entityId = give(data.entityId);
+                if (!dropsIds)
+                    given.entityId = give(data.entityId);
                 if (level.isValid())
                     given.rays.tlasBuffer = pass.resources.buffer(level);
                 if (takeRays)

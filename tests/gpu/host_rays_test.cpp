@@ -5,6 +5,7 @@
 #include "spirv/motion_blur/reveal.comp.h"
 
 #include "engine/image/metrics.h"
+#include "engine/scene/lens.h"
 #include "game/replay/replay_run.h"
 #include "modules/motion_blur/params.h"
 #include "shaders/motion_blur/hybrid_shared.h"
@@ -33,6 +34,7 @@ using test::StagedFrame;
 
 constexpr math::uvec2 kSize = test::kStageSize;
 constexpr uint32_t kInstants = 7;
+constexpr double kYFov = 1.0; ///< radians
 
 /// Rays of the host's: a compute shader with the host's tables of its scene. The engine's own
 /// reveal, so that the picture differs from the engine's.
@@ -125,27 +127,40 @@ class SampleHost {
         desc.interface.bindings = {
             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-            VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR};
+            VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
         desc.interface.sceneLayout = sceneLayout;
-        desc.interface.pushConstantBytes = 16;
+        desc.interface.pushConstantBytes = sizeof(Push);
         mPipeline.emplace(device, desc);
     }
 
     void answer(const graph::TimedRays& rays, const SampleTask& task) {
         ++calls;
-        const std::array<math::uvec2, 2> push{
-            gpu::splitAddress(rays.frameConstants), gpu::splitAddress(rays.timedConstants)};
+        const Push push{
+            gpu::splitAddress(rays.frameConstants),
+            gpu::splitAddress(rays.timedConstants),
+            task.lensPlaces ? focusDistance : 0.0f};
         gpu::BindingList bindings;
-        bindings.buffer(task.list).buffer(task.answers).accelerationStructure(rays.tlas);
+        bindings.buffer(task.list)
+            .buffer(task.answers)
+            .accelerationStructure(rays.tlas)
+            .buffer(task.lensPlaces ? task.lensPlaces : task.answers);
         gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
         frame.beginIn(task.commands);
-        frame.bind(*mPipeline, bindings, push.data(), sizeof(push), rays.textures);
+        frame.bind(*mPipeline, bindings, &push, sizeof(push), rays.textures);
         vkCmdDispatchIndirect(task.commands, task.groups, 0);
     }
 
     uint32_t calls = 0;
+    float focusDistance = 0.0f; ///< of the lens, if there is one
 
   private:
+    struct Push {
+        math::uvec2 frame;
+        math::uvec2 timed;
+        float focusDistance;
+    };
+
     gpu::Device& mDevice;
     std::optional<gpu::Pipeline> mPipeline;
     std::vector<std::unique_ptr<gpu::Frame>> mFrames; ///< until the GPU is done
@@ -159,7 +174,7 @@ class OwnRays : public test::EmbeddedTest {
             return;
         if (!device().hasRayQuery())
             GTEST_SKIP() << "the device traces no rays in compute shaders";
-        mScene.setPerspective(1.0);
+        mScene.setPerspective(kYFov);
         const auto wall = mScene.addTextured(mScene.addWaveTexture(), true);
         const auto front = mScene.addTextured(mScene.addWaveTexture(32), true);
         mScene.add(test::makeQuad(12.0, 8.0, wall), {.position = {0.0, 0.0, -6.0}});
@@ -181,6 +196,9 @@ class OwnRays : public test::EmbeddedTest {
         test::MotionDescriber describer(kInstants);
         stage.declareMotion(describer);
         stage.shutter.exposureSeconds = 0.25;
+        const auto* lens = mScene.world.registry.find<scene::CameraLens>(mScene.camera);
+        stage.request.view.usesLens = lens != nullptr;
+        rays.focusDistance = lens ? float(lens->focusDistance) : 0.0f;
         stage.host.changeInputs = [&](const render::PostContext& context, HostInputs& inputs) {
             std::optional<graph::TimedRays> timed;
             if (context.timedRays)
@@ -189,6 +207,10 @@ class OwnRays : public test::EmbeddedTest {
                 if (isAnswered && timed)
                     rays.answer(*timed, task);
             };
+            if (lens)
+                inputs.motion.lens = {
+                    .radius = scene::computeLensRadius(*lens, kYFov),
+                    .focusDistance = lens->focusDistance};
         };
         StagedFrame drawn = stage.draw();
         EXPECT_EQ(rays.calls, isAnswered ? 3u : 0u) << "once a recording";
@@ -242,6 +264,23 @@ TEST_F(OwnRays, SamplesOfTheHostGiveTheBitsOfOurs) {
     EXPECT_GT(traced, 100u);
     EXPECT_EQ(mCounters.at("rays traced"), traced);
     expectSame(drawn);
+}
+
+TEST_F(OwnRays, SamplesOfTheHostThroughALensAreOurs) {
+    mScene.world.registry.add(
+        mScene.camera, scene::CameraLens{.fStop = 0.05, .focusDistance = 5.0}
+    );
+    MotionBlurSettings resolved = settingsOf("resolved", kInstants);
+    resolved.history = false;
+    const MotionBlurSettings all = adaptive(float(kInstants));
+    const image::Image lookedUp = drawSamples(resolved, all, false).result.color;
+    const StagedFrame drawn = drawSamples(all, all);
+    const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
+    EXPECT_GT(traced, 1000u);
+    EXPECT_EQ(mCounters.at("rays traced"), traced);
+    EXPECT_LT(image::computePsnr(lookedUp, drawn.result.color), 45.0) << "rays change the picture";
+    EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 60.0);
+    EXPECT_TRUE(test::sameBits(drawn.byC, drawn.output));
 }
 
 TEST_F(OwnRays, AShortListIsNeverExceededAndHoldsTheSamplesThatWeTrace) {

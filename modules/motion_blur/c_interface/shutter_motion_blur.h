@@ -246,6 +246,25 @@ typedef struct ShutterBlurMover {
     const double* worldFromObject;
 } ShutterBlurMover;
 
+/* The camera's lens, for "resolved" and "adaptive": surfaces at the focus distance are sharp,
+ * others are spread over the image of the lens's opening, together with their motion. A point at
+ * depth z is spread over 2 s radius |1 / focusDistance - 1 / z| pixels, where s is half the
+ * picture's height, in pixels, times the scale of y in clipFromView. */
+typedef struct ShutterBlurLens {
+    /* Half the height of the opening, metres, [0, 1000]: focal length / (2 f-number), at
+     * rasterTime; it grows with the focal length where that changes from key to key. 0: a pinhole,
+     * and no field below counts. */
+    double radius;
+    double focusDistance; /* along the view, metres, [1e-4, 1e9] */
+    /* One for each camera key in place of focusDistance, for a focus that is pulled during the
+     * exposure; its inverse is linear in between. Null: none. */
+    const double* focusDistances;
+    double bladeRotation; /* of the first corner from the right, counterclockwise, [-2 pi, 2 pi] */
+    double roundness;     /* of the sides, [0, 1]; 1: a disc */
+    double squeeze;       /* width of the opening by its height, (0, 4] */
+    uint32_t blades;      /* sides of the opening, 3 to 16; 0: a disc */
+} ShutterBlurLens;
+
 /* The sensor's sensitivity at a shutter time, relative to that at others. */
 typedef struct ShutterBlurResponsePoint {
     double time;        /* shutter time, [0, 1]: 0 open, 1 close */
@@ -307,11 +326,18 @@ typedef struct ShutterBlurSampleTask {
     VkBuffer launch;
     VkDeviceAddress launchAddress;
     /* 16 bytes per sample, to be written: red, green, blue (linear floats) of the surface visible
-     * through the pixel's centre at that time, and a fourth float of 1. Samples that are not
-     * written retain the looked-up colour. */
+     * through the pixel's centre at that time, and a fourth float of 1; with a lens the surface's
+     * depth along the view, metres, 1e9 for the sky. Samples that are not written retain the
+     * looked-up colour. */
     VkBuffer answers;
     VkDeviceAddress answersAddress;
     VkDeviceSize answersBytes;
+    /* 8 bytes per sample: its place of the lens, metres right and up in the picture (floats). The
+     * ray starts there, and meets the focus plane where the pinhole's ray through the pixel's
+     * centre does. Null: there is no lens. */
+    VkBuffer lensPlaces;
+    VkDeviceAddress lensPlacesAddress;
+    VkDeviceSize lensPlacesBytes;
 } ShutterBlurSampleTask;
 
 /* The buffers and images that the host's commands from recordBlended() read and write for one part
@@ -481,6 +507,10 @@ typedef struct ShutterBlurInputs {
     uint32_t blendedInstants;       /* at most, [0, 256]; 0: the method's, 15 for filters */
     uint32_t blendedParts;          /* at most, [0, 4]; 0: 4. Filters have one */
     VkBool32 blendedOpacityInAlpha; /* opacity goes into alpha of the colours */
+
+    /* For "resolved" and "adaptive", with perspective `keys`; other methods refuse it. Movers are
+     * not required, nor a camera that moves. */
+    ShutterBlurLens lens;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
@@ -494,6 +524,8 @@ static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
     made.displayedPerRendered = 1.0f;
     made.rasterTime = 1.0;
     made.noEntity = 0xFFFFFFFFu;
+    made.lens.focusDistance = 10.0;
+    made.lens.squeeze = 1.0;
     return made;
 }
 
@@ -590,6 +622,7 @@ typedef struct ShutterBlurPlan {
     uint32_t blendedInstants;
     uint32_t blendedParts;
     VkBool32 blendedOpacityInAlpha;
+    VkBool32 hasLens; /* all frames, or some, have a `lens` of a radius above 0 */
 } ShutterBlurPlan;
 
 static inline ShutterBlurPlan shutterBlurDefaultPlan(void) {

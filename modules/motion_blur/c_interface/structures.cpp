@@ -94,6 +94,19 @@ core::Status checkArrays(const ShutterBlurInputs& given) {
     );
 }
 
+HostLens convertLens(const ShutterBlurInputs& given) {
+    HostLens lens;
+    lens.radius = given.lens.radius;
+    lens.focusDistance = given.lens.focusDistance;
+    if (given.lens.focusDistances)
+        lens.focusDistances = {given.lens.focusDistances, given.keyCount};
+    lens.bladeRotation = given.lens.bladeRotation;
+    lens.roundness = given.lens.roundness;
+    lens.squeeze = given.lens.squeeze;
+    lens.blades = given.lens.blades;
+    return lens;
+}
+
 HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
     arrays.keys.clear();
     for (uint32_t i = 0; i < given.keyCount; ++i) {
@@ -126,6 +139,7 @@ HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
         motion.rowIds = {given.rowIds, given.rowCount};
     motion.view = given.view;
     motion.followsLast = given.followsLast != VK_FALSE;
+    motion.lens = convertLens(given);
     return motion;
 }
 
@@ -276,6 +290,7 @@ core::Result<HostPlan> convert(const ShutterBlurPlan* given) {
     plan.blendedInstants = wanted.blendedInstants;
     plan.blendedParts = wanted.blendedParts;
     plan.isBlendedOpacityInAlpha = wanted.blendedOpacityInAlpha != VK_FALSE;
+    plan.hasLens = wanted.hasLens != VK_FALSE;
     return plan;
 }
 

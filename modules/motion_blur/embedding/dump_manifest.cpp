@@ -63,6 +63,22 @@ ordered_json describeConvention(const HostConvention& convention) {
     return root;
 }
 
+ordered_json describeLens(const HostLens& lens) {
+    if (!lens.isOpen())
+        return {};
+    ordered_json root;
+    root["radius"] = lens.radius;
+    root["focusDistance"] = describeNumber(lens.focusDistance);
+    root["focusDistances"] = ordered_json::array();
+    for (const double distance : lens.focusDistances)
+        root["focusDistances"].push_back(distance);
+    root["bladeRotation"] = lens.bladeRotation;
+    root["roundness"] = lens.roundness;
+    root["squeeze"] = lens.squeeze;
+    root["blades"] = lens.blades;
+    return root;
+}
+
 ordered_json describeMotion(const HostMotion& motion) {
     ordered_json root;
     root["aheadIsPlusZ"] = motion.aheadIsPlusZ;
@@ -86,6 +102,7 @@ ordered_json describeMotion(const HostMotion& motion) {
     ordered_json& ids = root["rowIds"] = ordered_json::array();
     for (const uint64_t id : motion.rowIds)
         ids.push_back(std::to_string(id));
+    root["lens"] = describeLens(motion.lens);
     return root;
 }
 

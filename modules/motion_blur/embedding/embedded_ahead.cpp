@@ -127,14 +127,25 @@ core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
     const SmallImages images(*mDevice, dryRun.inputs);
     SHUTTER_TRY(checkInputs(dryRun.inputs, small.settings, abilities()));
     Slot slot(*mDevice, 0);
+    SHUTTER_TRY(recordAll(dryRun, small.settings, slot));
+    if (!small.hasLens)
+        return {};
+    dryRun.inputs.motion.lens = {}; // a host may close it, too
+    return recordAll(dryRun, small.settings, slot);
+}
+
+core::Status EmbeddedMotionBlur::recordAll(
+    DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot
+) {
     View view(*mDevice);
     // Without a frame before and with one, with few movers and with all that may come.
     for (uint32_t i = 0; i < 4; ++i) {
         const DroppedCommands dropped(mHost.device, mHost.queueFamily);
         graph::Graph graph;
-        Frame frame{0, slot, graph, dryRun.inputs, small.settings};
+        Frame frame{0, slot, graph, dryRun.inputs, settings};
         frame.hasAll = i >= 2;
         SHUTTER_TRY(record(frame, view, dropped.commands));
+        dryRun.moveCamera();
     }
     return {};
 }
@@ -228,6 +239,7 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
         transients = compiled.value().blockBytes;
         for (const graph::Placement& buffer : compiled.value().buffers)
             transients += buffer.bytes;
+        dryRun.moveCamera();
     }
     for (const gpu::Buffer* buffer : {&slot.instants, &slot.convention})
         slotBytes += buffer->bytes();

@@ -143,6 +143,8 @@ class EmbeddedMotionBlur {
     [[nodiscard]] bool hasRun(uint32_t frame) const;
     void recordMark(uint32_t frame, VkCommandBuffer commands);
     core::Status recordOnce(const HostPlan& plan);
+    /// Records each kind of frame of those inputs once, and drops it.
+    core::Status recordAll(DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot);
     core::Status makePipelines(const HostPlan& plan);
     [[nodiscard]] core::Result<uint64_t> estimate(const HostPlan& plan);
 

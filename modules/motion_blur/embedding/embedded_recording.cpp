@@ -61,7 +61,8 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     HostInstants made = computeHostInstants(motion, describeFrame(inputs, frame.settings), last);
     InstantMotions motions;
     motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
-    motions.instantCount = countInstants(frame.settings);
+    motions.hasLens = seesThroughLens(inputs, frame.settings);
+    motions.instantCount = countInstants(frame.settings, motions.hasLens);
     motions.hasLast = made.layers.last.has_value();
     const bool hasAll = frame.hasAll && inputs.entityId.image;
     motions.deforms[size_t(LayerIndex::Raster)] = hasAll || made.layers.raster.deforms;

@@ -233,6 +233,13 @@ core::Status checkMethod(
             "motion blur: the method {} reads no raster image; it is not for hosts that have one",
             method.name
         );
+    if (inputs.motion.lens.isOpen() && !seesThroughLens(inputs, settings))
+        return makeError(
+            "motion blur: lens.radius is {}, but the method {} has no lens; it must be 0, or the "
+            "method resolved or adaptive, with keys",
+            inputs.motion.lens.radius,
+            method.name
+        );
     if (method.rays == RayNeed::Query)
         SHUTTER_TRY(checkSamples(inputs, settings, host));
     if (method.rays == RayNeed::Any)
@@ -324,6 +331,9 @@ void keepRasterKey(HostMotion& motion, double rasterTime, std::vector<HostMover>
         return; // the same
     const size_t index = size_t(raster - keys.begin());
     motion.keys = keys.subspan(index, 1);
+    std::span<const double>& focus = motion.lens.focusDistances;
+    if (focus.data() && focus.size() == keys.size())
+        focus = focus.subspan(index, 1);
     motion.followsLast = false;
     if (!motion.movers.data())
         return;
@@ -397,12 +407,18 @@ HostImageRule outputRule(const HostInputs& inputs) {
     return rule;
 }
 
+bool seesThroughLens(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    return inputs.motion.lens.isOpen() && settings.method->readsLens &&
+           settings.method->readsInstantMotions;
+}
+
 HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    const bool hasLens = seesThroughLens(inputs, settings);
     return {
         {inputs.width, inputs.height},
         inputs.rasterTime,
         inputs.response != 0,
-        countInstants(settings),
+        hasLens ? settings.sampleCount : countInstants(settings),
         inputs.lastDeformedMotion.image != VK_NULL_HANDLE};
 }
 

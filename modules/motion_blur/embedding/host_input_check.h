@@ -41,6 +41,9 @@ extern const HostImageRule kBlendedRule;
 /// The part of the image that is used is one that the effect may read, write and copy itself.
 [[nodiscard]] bool isNativeImage(const HostImage& image, VkFormat format, VkExtent2D picture);
 
+/// Samples have places of the lens, which is open and which the method reads.
+[[nodiscard]] bool seesThroughLens(const HostInputs& inputs, const MotionBlurSettings& settings);
+
 [[nodiscard]] HostMotionFrame
 describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings);
 

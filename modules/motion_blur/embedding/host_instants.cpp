@@ -2,6 +2,7 @@
 #include "modules/motion_blur/embedding/host_instants.h"
 
 #include "engine/core/check.h"
+#include "engine/math/lens_tables.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response.glsl"
 
@@ -22,6 +23,18 @@ using math::LayerTables;
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 /// Within which a key is at the raster instant: hosts may compute the two apart.
 constexpr double kSameTime = 1.0e-6;
+
+/// Whether both rasters show the same entities in the same places.
+bool showsTheSame(const HostRaster& last, const HostRaster& now) {
+    const auto isSame = [](const HostRaster::Mover& a, const HostRaster::Mover& b) {
+        return a.row == b.row && !a.deforms && !b.deforms && a.worldFromObject == b.worldFromObject;
+    };
+    return last.pictureFromWorld == now.pictureFromWorld && last.rowCount == now.rowCount &&
+           last.rowIds == now.rowIds &&
+           std::equal(
+               last.movers.begin(), last.movers.end(), now.movers.begin(), now.movers.end(), isSame
+           );
+}
 
 uint64_t idOf(std::span<const uint64_t> rowIds, uint32_t row) {
     return rowIds.empty() ? row : rowIds[row];
@@ -60,6 +73,12 @@ class Builder {
         made.layers.raster = describeRaster(made.raster.pictureFromWorld);
         if (last && last->sizePx == mFrame.sizePx && last->isPerspective == isPerspective())
             made.layers.last = describeLast(*last);
+        if (mMotion.lens.isOpen()) {
+            // Another look at the same surfaces from the same places adds nothing.
+            if (last && showsTheSame(*last, made.raster))
+                made.layers.last.reset();
+            addLens(made.layers);
+        }
         return made;
     }
 
@@ -80,6 +99,35 @@ class Builder {
         }
         raster.rowIds.assign(mMotion.rowIds.begin(), mMotion.rowIds.end());
         return raster;
+    }
+
+    [[nodiscard]] math::ThinLens
+    describeLens(const HostCamera& camera, const BetweenKeys& place) const {
+        const HostLens& lens = mMotion.lens;
+        math::ThinLens made;
+        made.pixelsPerUnit = math::measurePixelsPerUnit(camera.clipFromView, mFrame.sizePx);
+        // The picture's scale is the focal length's.
+        const double zoom =
+            made.pixelsPerUnit.y /
+            math::measurePixelsPerUnit(mCamera.atKey(mRasterKey).clipFromView, mFrame.sizePx).y;
+        made.radius = lens.radius * zoom;
+        made.focusDistance = lens.focusDistance;
+        if (!lens.focusDistances.empty()) {
+            const double from = 1.0 / lens.focusDistances[place.from];
+            const double to = 1.0 / lens.focusDistances[place.to];
+            made.focusDistance = 1.0 / (from + (to - from) * place.share);
+        }
+        made.aperture = {
+            lens.blades, float(lens.bladeRotation), float(lens.roundness), float(lens.squeeze)};
+        return made;
+    }
+
+    void addLens(math::InstantLayers& layers) const {
+        std::vector<math::ThinLens> lenses;
+        for (const BetweenKeys& place : mPlaces)
+            lenses.push_back(describeLens(mCamera.at(place), place));
+        const BetweenKeys raster{mRasterKey, mRasterKey, 0.0};
+        math::addLens(lenses, describeLens(mCamera.atKey(mRasterKey), raster), layers);
     }
 
     /// Adds the row unless it stays where the layer has it.

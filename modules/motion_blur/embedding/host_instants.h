@@ -17,7 +17,7 @@ struct HostMotionFrame {
     math::uvec2 sizePx{1u};
     double rasterTime = 1.0;        ///< HostInputs::rasterTime
     bool hasResponse = false;       ///< HostInputs::response is not 0
-    uint32_t instantCount = 1;      ///< countInstants() (settings.h)
+    uint32_t instantCount = 1;      ///< countInstants() (settings.h); with a lens, of samples
     bool knowsLastDeformed = false; ///< HostInputs::lastDeformedMotion is given
 };
 

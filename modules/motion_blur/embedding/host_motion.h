@@ -29,6 +29,19 @@ struct HostMover {
     std::span<const glm::dmat4> worldFromObject; ///< as many as camera keys, or empty
 };
 
+/// ShutterBlurLens.
+struct HostLens {
+    double radius = 0.0;
+    double focusDistance = 10.0;
+    std::span<const double> focusDistances; ///< as many as camera keys, or empty
+    double bladeRotation = 0.0;
+    double roundness = 0.0;
+    double squeeze = 1.0;
+    uint32_t blades = 0;
+
+    [[nodiscard]] bool isOpen() const { return radius != 0.0; }
+};
+
 /// Spans and pointers are read during the call only.
 struct HostMotion {
     std::span<const HostCameraKey> keys;
@@ -38,6 +51,7 @@ struct HostMotion {
     std::span<const uint64_t> rowIds;
     /// The table in main memory that HostInputs::response is the address of; null where that is 0.
     const shader::ResponseTable* response = nullptr;
+    HostLens lens;
     uint32_t view = 0;        ///< a method without history drops that of its view
     bool followsLast = false; ///< counts with MotionBlurSettings::history
 };

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,13 @@ using core::makeError;
 using math::dmat4;
 
 constexpr size_t kMaxKeys = 64;
+constexpr double kMaxLensRadius = 1000.0;
+// As scene::CameraLens has them.
+constexpr double kMinFocus = 1.0e-4;
+constexpr double kMaxFocus = 1.0e9;
+constexpr uint32_t kMinBlades = 3;
+constexpr uint32_t kMaxBlades = 16;
+constexpr double kMaxSqueeze = 4.0;
 constexpr uint32_t kMaxRows = shader::kSkyKey; // exact as floats, and not the sky
 
 template <class T> core::Status checkSpan(std::string_view name, std::span<const T> values) {
@@ -148,6 +156,65 @@ core::Status checkMovers(const HostMotion& motion) {
     return {};
 }
 
+core::Status checkLensShape(const HostLens& lens) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    if (!(lens.radius > 0.0 && lens.radius <= kMaxLensRadius))
+        return makeError(
+            "motion blur: lens.radius is {}, it must be 0 to {}", lens.radius, kMaxLensRadius
+        );
+    if (lens.blades != 0 && (lens.blades < kMinBlades || lens.blades > kMaxBlades))
+        return makeError(
+            "motion blur: lens.blades is {}, it must be 0 or {} to {}",
+            lens.blades,
+            kMinBlades,
+            kMaxBlades
+        );
+    if (!(std::abs(lens.bladeRotation) <= kTurn))
+        return makeError(
+            "motion blur: lens.bladeRotation is {}, it must be -2 pi to 2 pi", lens.bladeRotation
+        );
+    if (!(lens.roundness >= 0.0 && lens.roundness <= 1.0))
+        return makeError("motion blur: lens.roundness is {}, it must be 0 to 1", lens.roundness);
+    if (!(lens.squeeze > 0.0 && lens.squeeze <= kMaxSqueeze))
+        return makeError(
+            "motion blur: lens.squeeze is {}, it must be above 0, to {}", lens.squeeze, kMaxSqueeze
+        );
+    return {};
+}
+
+core::Status checkFocus(const std::string& name, double distance) {
+    if (distance >= kMinFocus && distance <= kMaxFocus)
+        return {};
+    return makeError(
+        "motion blur: {} is {}, it must be {} to {}", name, distance, kMinFocus, kMaxFocus
+    );
+}
+
+core::Status checkLens(const HostMotion& motion) {
+    const HostLens& lens = motion.lens;
+    if (!lens.isOpen())
+        return {};
+    SHUTTER_TRY(checkLensShape(lens));
+    SHUTTER_TRY(checkSpan("lens.focusDistances", lens.focusDistances));
+    if (lens.focusDistances.empty())
+        SHUTTER_TRY(checkFocus("lens.focusDistance", lens.focusDistance));
+    else if (lens.focusDistances.size() != motion.keys.size())
+        return makeError(
+            "motion blur: lens.focusDistances holds {}, keys {}",
+            lens.focusDistances.size(),
+            motion.keys.size()
+        );
+    for (size_t i = 0; i < lens.focusDistances.size(); ++i)
+        SHUTTER_TRY(checkFocus(fmt::format("lens.focusDistances[{}]", i), lens.focusDistances[i]));
+    if (!normalize(motion.keys.front(), motion.aheadIsPlusZ)->isPerspective)
+        return makeError(
+            "motion blur: lens.radius is {}, but keys[0].clipFromView is orthographic; it must be "
+            "0",
+            lens.radius
+        );
+    return {};
+}
+
 core::Status checkResponse(const shader::ResponseTable& table) {
     if (table.knotCount < 2 || table.knotCount > shader::kMaxResponseKnots)
         return makeError(
@@ -195,6 +262,7 @@ core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame)
             "motion blur: rowCount is {}, it must be 1 to {}", motion.rowCount, kMaxRows
         );
     SHUTTER_TRY(checkMovers(motion));
+    SHUTTER_TRY(checkLens(motion));
     SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));
     if (!motion.rowIds.empty() && motion.rowIds.size() != motion.rowCount)
         return makeError(

@@ -33,6 +33,7 @@ void fillPlaceholderMotion(const HostPlan& plan, DryRunInputs& dryRun) {
     motion.movers = dryRun.movers;
     motion.rowCount = plan.rowCount;
     motion.followsLast = true;
+    motion.lens.radius = plan.hasLens ? 0.01 : 0.0;
 }
 
 /// As many whole rows as hold the planned pixels.
@@ -47,6 +48,11 @@ void imagineDrawn(const HostPlan& plan, HostBlended& drawn) {
 }
 
 } // namespace
+
+void DryRunInputs::moveCamera() {
+    for (HostCameraKey& key : keys)
+        key.viewFromWorld[3].x += 1.0;
+}
 
 void fillPlaceholders(const HostPlan& plan, DryRunInputs& dryRun) {
     uintptr_t next = 0;

@@ -32,10 +32,14 @@ struct HostPlan {
     uint32_t blendedInstants = 0;
     uint32_t blendedParts = 0;
     bool isBlendedOpacityInAlpha = false;
+    bool hasLens = false;
 };
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.
 struct DryRunInputs {
+    /// The next recording looks at the world from another place.
+    void moveCamera();
+
     HostInputs inputs;
     std::vector<HostCameraKey> keys;
     std::vector<HostMover> movers;

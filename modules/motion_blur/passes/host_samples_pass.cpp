@@ -39,6 +39,7 @@ struct HostSamplesPass::Lists {
     graph::BufferHandle answers; ///< vec4 by sample
     graph::BufferHandle first;   ///< by listed pixel
     graph::BufferHandle groups;  ///< shader::DispatchArguments
+    graph::BufferHandle places;  ///< vec2 by sample: of the lens; invalid: there is none
 };
 
 /// What both passes have that search as the resolve does, pixel by listed pixel.
@@ -60,20 +61,20 @@ struct HostSamplesPass::Searching {
 
 HostSamplesPass::HostSamplesPass(gpu::Device& device)
     : mDevice(device),
-      mList(device, describeSamples("list samples", motion_blur_list_samples_comp, 5)),
+      mList(device, describeSamples("list samples", motion_blur_list_samples_comp, 6)),
       mCollect(device, describeSamples("collect samples", motion_blur_collect_samples_comp, 4)) {}
 
 void HostSamplesPass::add(
     graph::Graph& graph, const HostSamples& own, ResolvePassOutputs& found, const PassParams& params
 ) const {
-    Lists lists = createLists(graph, params);
+    Lists lists = createLists(graph, params, found.search.hasLens);
     addList(graph, found, lists, params);
     addAnswer(graph, own, lists, params);
     addCollect(graph, found, lists, params);
 }
 
 HostSamplesPass::Lists
-HostSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const {
+HostSamplesPass::createLists(graph::Graph& graph, const PassParams& params, bool hasLens) const {
     const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
     const VkDeviceSize capacity = capacityOf(params);
     Lists lists;
@@ -86,6 +87,9 @@ HostSamplesPass::createLists(graph::Graph& graph, const PassParams& params) cons
     lists.groups = graph.createBuffer(
         "asked sample groups", {sizeof(shader::DispatchArguments), kArgumentsUsage}
     );
+    if (hasLens)
+        lists.places =
+            graph.createBuffer("lens places", {capacity * sizeof(glm::vec2), kListUsage});
     const Lists& cleared = graph.addPass<Lists>(
         "clear asked samples",
         graph::PassKind::Transfer,
@@ -117,6 +121,8 @@ void HostSamplesPass::addList(
                 builder.write(lists.answers, Access::StorageWrite),
                 builder.write(lists.first, Access::StorageWrite),
                 builder.write(lists.groups, Access::StorageWrite)};
+            if (lists.places.isValid())
+                data.lists.places = builder.write(lists.places, Access::StorageWrite);
         },
         [this, params](const Searching& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
@@ -125,6 +131,10 @@ void HostSamplesPass::addList(
             for (const graph::BufferHandle buffer :
                  {data.lists.samples, data.lists.answers, data.lists.first, data.lists.groups})
                 bindings.buffer(resources.buffer(buffer));
+            // Without a lens it is not written.
+            const graph::BufferHandle places =
+                data.lists.places.isValid() ? data.lists.places : data.lists.answers;
+            bindings.buffer(resources.buffer(places));
             const PassParams own = withCrowds(params, resources, data.search.crowds);
             const gpu::Pipeline& pipeline = mList.get(data.search, data.search.crowds.isValid());
             dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
@@ -158,6 +168,8 @@ void HostSamplesPass::addAnswer(
             data.lists.samples = builder.read(lists.samples, Access::StorageRead);
             data.lists.groups = builder.read(lists.groups, Access::IndirectRead);
             data.lists.answers = builder.write(lists.answers, Access::StorageWrite);
+            if (lists.places.isValid())
+                data.lists.places = builder.read(lists.places, Access::StorageRead);
             if (launch.isValid())
                 data.launch = builder.read(launch, Access::IndirectRead);
         },
@@ -175,6 +187,11 @@ void HostSamplesPass::addAnswer(
             task.answers = resources.buffer(data.lists.answers);
             task.answersAddress = resources.address(data.lists.answers);
             task.answersBytes = capacity * sizeof(glm::vec4);
+            if (data.lists.places.isValid()) {
+                task.lensPlaces = resources.buffer(data.lists.places);
+                task.lensPlacesAddress = resources.address(data.lists.places);
+                task.lensPlacesBytes = capacity * sizeof(glm::vec2);
+            }
             own.record(task);
         }
     );

@@ -28,7 +28,8 @@ class HostSamplesPass {
     struct Lists;
     struct Searching;
 
-    [[nodiscard]] Lists createLists(graph::Graph& graph, const PassParams& params) const;
+    [[nodiscard]] Lists
+    createLists(graph::Graph& graph, const PassParams& params, bool hasLens) const;
     void addList(
         graph::Graph& graph, ResolvePassOutputs& found, Lists& lists, const PassParams& params
     ) const;

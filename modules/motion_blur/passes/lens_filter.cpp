@@ -13,9 +13,16 @@ LensFilter::LensFilter(gpu::Device& device)
           device, describePass("filter lens", motion_blur_lens_filter_comp, {kSampled, kStorage})
       ) {}
 
-graph::ImageHandle
-LensFilter::add(graph::Graph& graph, graph::ImageHandle picture, const PassParams& params) const {
+graph::ImageHandle LensFilter::add(
+    graph::Graph& graph,
+    graph::ImageHandle picture,
+    graph::ImageHandle target,
+    const PassParams& params
+) const {
     using graph::Access;
+
+    if (!target.isValid())
+        target = graph.createImage("seen through the lens", graph.describeImage(picture));
 
     struct Data {
         graph::ImageHandle picture;
@@ -28,10 +35,7 @@ LensFilter::add(graph::Graph& graph, graph::ImageHandle picture, const PassParam
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.picture = builder.read(picture, Access::SampledCompute);
-                data.filtered = builder.write(
-                    graph.createImage("seen through the lens", graph.describeImage(picture)),
-                    Access::StorageWrite
-                );
+                data.filtered = builder.write(target, Access::StorageWrite);
             },
             [this, params](const Data& data, graph::PassContext& context) {
                 gpu::BindingList bindings;

@@ -13,9 +13,13 @@ class LensFilter {
     explicit LensFilter(gpu::Device& device);
 
     /// \param picture of ResolvePass, whose alpha has the radius of each pixel (resolved_lens.glsl)
-    /// \return another, with an alpha of 1
+    /// \param target another image, or invalid: a new one
+    /// \return the target, with an alpha of 1
     [[nodiscard]] graph::ImageHandle
-    add(graph::Graph& graph, graph::ImageHandle picture, const PassParams& params) const;
+    add(graph::Graph& graph,
+        graph::ImageHandle picture,
+        graph::ImageHandle target,
+        const PassParams& params) const;
 
   private:
     VkSampler mSampler;

@@ -339,8 +339,13 @@ ResolvePassOutputs ResolvePass::add(
     const bool readsKept = !(raster.color == inputs.color);
     outputs.stillPixelsBy =
         readsKept && inputs.mayWriteColor() ? StaticPixelsBy::InPlace : shared.stillPixelsBy;
-    outputs.picture =
-        shared.stillPixels.begin(graph, inputs.color, inputs.target, outputs.stillPixelsBy);
+    graph::ImageHandle target = inputs.target;
+    if (motions.hasLens && target.isValid()) {
+        // The filter behind the search writes into it, and reads another image.
+        target = {};
+        outputs.stillPixelsBy = StaticPixelsBy::WholeCopy;
+    }
+    outputs.picture = shared.stillPixels.begin(graph, inputs.color, target, outputs.stillPixelsBy);
     // Pixels that may be traced are listed by the search.
     if (!mListsPixels)
         outputs.picture = mBlocks.addResolve(
@@ -459,7 +464,7 @@ MotionBlurOutputs ResolvePass::end(
         found.stillPixelsBy
     );
     if (found.search.hasLens)
-        outputs.color = mLensFilter.add(graph, outputs.color, params);
+        outputs.color = mLensFilter.add(graph, outputs.color, inputs.target, params);
     outputs.surfaces = found.surfaces;
     const SurfaceLayersOutputs& layers = found.search.layers;
     for (const View& view : {View{"second", layers.second.color}, View{"last", layers.last.color}})

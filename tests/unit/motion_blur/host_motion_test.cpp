@@ -23,6 +23,8 @@ using math::LayerTables;
 using math::vec3;
 using math::vec4;
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
 /// A host with a moving and rotating camera.
 class HostMotionFixture : public ::testing::Test {
   protected:
@@ -253,6 +255,85 @@ TEST_F(HostInstantsTest, BothLayersAreStaticUnderAStaticCamera) {
     EXPECT_TRUE(made.layers.last->isStatic);
 }
 
+TEST_F(HostInstantsTest, ALensDisplacesByItsPlacesWhatIsOutOfFocus) {
+    motion.lens = {.radius = 0.02, .focusDistance = 4.0, .squeeze = 2.0};
+    const HostInstants made = compute();
+    const math::InstantLayers& layers = made.layers;
+    constexpr size_t kPairs = size_t(kInstants) * shader::kLensSets;
+    ASSERT_EQ(layers.lens.size(), kPairs);
+    ASSERT_EQ(layers.lensPlaces.size(), kPairs);
+    ASSERT_EQ(layers.times.size(), kPairs);
+    EXPECT_FALSE(layers.raster.isStatic);
+    EXPECT_EQ(layers.raster.motions.size(), 2u * kInstants) << "the pinhole's";
+    math::dvec2 widest(0.0);
+    for (size_t i = 0; i < kPairs; ++i) {
+        EXPECT_NEAR(layers.times[i], (double(i / shader::kLensSets) + 0.5) / kInstants, 1e-6);
+        // A point straight ahead, from the place and from the lens's middle.
+        const math::dvec2 place(layers.lensPlaces[i]);
+        const double depth = 9.0;
+        const dvec4 seen = projection() * dvec4(-place, -depth, 1.0);
+        const dvec4 focused = projection() * dvec4(-place, -4.0, 1.0);
+        const math::dvec2 moved = 0.5 * math::dvec2(frame.sizePx) *
+                                  (math::dvec2(seen) / seen.w - math::dvec2(focused) / focused.w);
+        const vec4 shift = layers.lens[i];
+        EXPECT_NEAR(shift.x + shift.z / depth, moved.x, 1e-5) << i;
+        EXPECT_NEAR(shift.y + shift.w / depth, moved.y, 1e-5) << i;
+        EXPECT_NEAR(shift.x + shift.z / 4.0, 0.0, 1e-6) << i;
+        widest = glm::max(widest, glm::abs(place));
+    }
+    EXPECT_LE(widest.y, 0.02 + 1e-9);
+    EXPECT_GT(widest.y, 0.019);
+    EXPECT_NEAR(widest.x / widest.y, 2.0, 0.1);
+    // Circle of confusion at the raster instant: 2 |x - y / z|.
+    const double pixelsPerUnit = 50.0 / std::tan(0.45);
+    EXPECT_NEAR(layers.confusion.y, 0.02 * pixelsPerUnit, 1e-4);
+    EXPECT_NEAR(layers.confusion.x, 0.02 * pixelsPerUnit / 4.0, 1e-4);
+}
+
+TEST_F(HostInstantsTest, AFocusIsPulledFromKeyToKeyAndALensGrowsWithTheFocalLength) {
+    const std::vector<double> distances{2.0, 3.0, 5.0};
+    motion.lens = {.radius = 0.02, .focusDistance = kNoNumber, .focusDistances = distances};
+    const math::InstantLayers constant = compute().layers;
+    keys[0].clipFromView = math::clipFromViewPerspective(1.6, 2.0, 0.1);
+    const HostInstants made = compute();
+    for (uint32_t i = 0; i < kInstants; ++i) {
+        const double s = (i + 0.5) / kInstants;
+        const double inverse = s < 0.5 ? glm::mix(1.0 / 2.0, 1.0 / 3.0, 2.0 * s)
+                                       : glm::mix(1.0 / 3.0, 1.0 / 5.0, 2.0 * s - 1.0);
+        EXPECT_NEAR(made.layers.lensReaches.at(i).inverseFocus, inverse, 1e-6) << i;
+    }
+    const double zoom = glm::mix(std::tan(0.45) / std::tan(0.8), 1.0, 0.2); // at time 0.1
+    for (size_t i = 0; i < made.layers.lensPlaces.size(); ++i) {
+        const math::vec2 expected =
+            constant.lensPlaces[i] * (i < shader::kLensSets ? float(zoom) : 1.0f);
+        if (i < shader::kLensSets || i >= 3 * shader::kLensSets) {
+            EXPECT_NEAR(made.layers.lensPlaces[i].x, expected.x, 1e-7) << i;
+            EXPECT_NEAR(made.layers.lensPlaces[i].y, expected.y, 1e-7) << i;
+        }
+    }
+    EXPECT_NEAR(made.layers.confusion.y / made.layers.confusion.x, 5.0, 1e-4);
+}
+
+TEST_F(HostInstantsTest, ThroughALensALastRasterOfTheSameAddsNothing) {
+    motion.lens = {.radius = 0.02};
+    addTumbler();
+    const HostRaster same = compute().raster;
+    EXPECT_FALSE(compute(&same).layers.last.has_value());
+    nextFrame();
+    const HostInstants other = compute(&same);
+    ASSERT_TRUE(other.layers.last.has_value());
+    EXPECT_FALSE(other.layers.last->isStatic);
+    const HostRaster mover = other.raster;
+    for (math::dmat4& matrix : matrices)
+        matrix[3].x += 1.0;
+    EXPECT_TRUE(compute(&mover).layers.last.has_value()) << "under a camera that stays";
+    movers[0].worldFromObject = {};
+    const HostRaster deforming = compute().raster;
+    EXPECT_TRUE(compute(&deforming).layers.last.has_value());
+    motion.lens = {};
+    EXPECT_TRUE(compute(&deforming).layers.last.has_value());
+}
+
 TEST_F(HostInstantsTest, InstantsFollowTheResponse) {
     shader::ResponseTable rising{};
     rising.knotCount = 2;
@@ -359,8 +440,6 @@ TEST_F(HostInstantsTest, FewerRowsThanBeforeLeaveTheOthersOut) {
     EXPECT_EQ(found.rasterRows.at(2), shader::kNoRasterRow);
 }
 
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-
 class HostMotionCheck : public HostMotionFixture {
   protected:
     void SetUp() override { reset(); }
@@ -460,6 +539,56 @@ TEST_F(HostMotionCheck, EachBadMoverIsNamed) {
     );
     refuse([&] { matrices[2][3][0] = kNoNumber; }, "movers[0].worldFromObject[2] is not finite");
     refuse([&] { matrices[1][1].w = 0.5; }, "movers[0].worldFromObject[1] is not affine");
+}
+
+TEST_F(HostMotionCheck, EachBadLensIsNamed) {
+    HostLens& lens = motion.lens;
+    const auto refuseLens = [&](const std::function<void()>& change, const std::string& part) {
+        refuse(
+            [&] {
+                lens = {.radius = 0.01};
+                ASSERT_TRUE(check().ok()) << check().error().message;
+                change();
+            },
+            part
+        );
+    };
+    refuseLens([&] { lens.radius = -0.01; }, "lens.radius is -0.01, it must be 0 to 1000");
+    refuseLens([&] { lens.radius = kNoNumber; }, "lens.radius is nan");
+    refuseLens([&] { lens.radius = HUGE_VAL; }, "lens.radius is inf");
+    refuseLens([&] { lens.focusDistance = 0.0; }, "lens.focusDistance is 0, it must be 0.0001 to");
+    refuseLens([&] { lens.focusDistance = kNoNumber; }, "lens.focusDistance is nan");
+    refuseLens([&] { lens.focusDistance = 2e9; }, "lens.focusDistance is 2000000000");
+    refuseLens([&] { lens.blades = 2; }, "lens.blades is 2, it must be 0 or 3 to 16");
+    refuseLens([&] { lens.blades = 17; }, "lens.blades is 17");
+    refuseLens([&] { lens.bladeRotation = 7.0; }, "lens.bladeRotation is 7");
+    refuseLens([&] { lens.bladeRotation = kNoNumber; }, "lens.bladeRotation is nan");
+    refuseLens([&] { lens.roundness = 1.1; }, "lens.roundness is 1.1, it must be 0 to 1");
+    refuseLens([&] { lens.squeeze = 0.0; }, "lens.squeeze is 0, it must be above 0, to 4");
+    refuseLens([&] { lens.squeeze = kNoNumber; }, "lens.squeeze is nan");
+    std::vector<double> distances(keys.size(), 2.0);
+    distances[1] = kNoNumber;
+    refuseLens([&] { lens.focusDistances = distances; }, "lens.focusDistances[1] is nan");
+    refuseLens(
+        [&] { lens.focusDistances = std::span<const double>(distances).first(1); },
+        "lens.focusDistances holds 1, keys 3"
+    );
+    refuseLens(
+        [&] {
+            lens.focusDistances = {static_cast<const double*>(nullptr), 3};
+        },
+        "lens.focusDistances is null, its size is 3"
+    );
+    isPerspective = false;
+    setKeys({0.0, 0.5, 1.0});
+    lens = {};
+    EXPECT_TRUE(check().ok());
+    lens.radius = 0.01;
+    EXPECT_EQ(
+        check().error().message,
+        "motion blur: lens.radius is 0.01, but keys[0].clipFromView is orthographic; it must be 0"
+    );
+    isPerspective = true;
 }
 
 TEST_F(HostMotionCheck, BadIdsAreNamed) {
