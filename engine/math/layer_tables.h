@@ -40,6 +40,7 @@ struct InstantLayers {
     std::vector<shader::LensReach> lensReaches; ///< InstantMotions::lensReaches; the same
     std::vector<vec2> lensPlaces;               ///< InstantMotions::lensPlaces; the same
     vec2 confusion{0.0f};                       ///< InstantMotions::confusion
+    vec4 aperture{0, 0, 0, 1};                  ///< InstantMotions::aperture; a disc
     bool isPerspective = true; ///< the camera is, at every instant; false: orthographic
 };
 

@@ -20,6 +20,7 @@ shader::LensReach describeReach(std::span<const vec4> shifts, const ThinLens& le
         reach.high = glm::max(reach.high, vec2(shift.z, shift.w));
     }
     reach.inverseFocus = float(1.0 / lens.focusDistance);
+    reach.radius = float(lens.radius * lens.pixelsPerUnit.y);
     return reach;
 }
 
@@ -54,6 +55,8 @@ void addLens(std::span<const ThinLens> lenses, const ThinLens& raster, InstantLa
     layers.lensReaches.push_back(describeReach(shifts, lenses[lenses.size() / 2]));
     const double radius = raster.radius * raster.pixelsPerUnit.y;
     layers.confusion = vec2(dvec2(radius / raster.focusDistance, radius));
+    const shader::Aperture& shape = raster.aperture;
+    layers.aperture = {float(shape.blades), shape.rotation, shape.roundness, shape.squeeze};
     layers.raster.isStatic = false;
     for (std::optional<LayerTables>* const layer : {&layers.second, &layers.last})
         if (*layer)

@@ -124,6 +124,7 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
         head[0].lensPlaces = gpu::splitAddress(buffer.address() + lensPlaces);
     }
     head[0].confusion = layers.confusion;
+    head[0].aperture = layers.aperture;
     head[0].isPerspective = layers.isPerspective ? 1 : 0;
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);
     return buffer.address() + headAt;

@@ -34,6 +34,29 @@ SHUTTER_INLINE float bladeAngle(float share, float half_, float roundness) {
     return angle;
 }
 
+/// x: distance of the opening's border from its middle, before it is squeezed; y: share of a step along
+/// the radius that leads straight towards the border.
+/// \param angle from the right, counterclockwise, radians
+SHUTTER_INLINE vec2 apertureBorder(Aperture aperture, float angle) {
+    if (aperture.blades == 0u || aperture.roundness >= 1.0f) return vec2(1.0f);
+    float half_ = kApertureHalfTurn / float(aperture.blades);
+    float turns = (angle - aperture.rotation) / (2.0f * half_);
+    float inBlade = (turns - floor(turns)) * 2.0f * half_ - half_;
+    float side = cos(half_) / cos(inBlade);
+    return vec2(
+        sqrt(mix(side * side, 1.0f, aperture.roundness)), mix(cos(inBlade), 1.0f, aperture.roundness)
+    );
+}
+
+/// Area of the opening.
+SHUTTER_INLINE float apertureArea(Aperture aperture) {
+    if (aperture.blades == 0u || aperture.roundness >= 1.0f)
+        return kApertureHalfTurn * aperture.squeeze;
+    float half_ = kApertureHalfTurn / float(aperture.blades);
+    float straight = (1.0f - aperture.roundness) * cos(half_) * sin(half_);
+    return float(aperture.blades) * (straight + aperture.roundness * half_) * aperture.squeeze;
+}
+
 /// Where a place of the unit square, [0, 1)^2, lies in the opening: right and up. Equal areas of the
 /// square become equal areas of the opening.
 SHUTTER_INLINE vec2 aperturePoint(Aperture aperture, vec2 place) {

@@ -36,7 +36,7 @@ struct LensReach {
     vec2 low;
     vec2 high;
     float inverseFocus; // 1/metre
-    float padding0;
+    float radius;       // of the lens, pixels by which it moves what is 1 / z - inverseFocus = 1
     float padding1;
     float padding2;
 };
@@ -66,6 +66,7 @@ struct InstantMotions {
     // Address of vec2[]: each instant's place of the lens, metres right and up in the picture. 0:
     // there is no lens.
     uvec2 lensPlaces;
+    vec4 aperture; // Aperture's fields (common/aperture.glsl); with a lens
 };
 
 /// In the table of movers, by row of the raster's entity table; the sky follows the last row.
@@ -91,7 +92,7 @@ SHUTTER_SHADER_END
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
 static_assert(sizeof(shutter::shader::LensReach) == 32);
-static_assert(sizeof(shutter::shader::InstantMotions) == 136);
+static_assert(sizeof(shutter::shader::InstantMotions) == 152);
 #endif
 
 #endif

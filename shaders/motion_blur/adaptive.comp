@@ -17,6 +17,7 @@ layout(push_constant, scalar) uniform Push {
     ResolvedParams method;
 };
 
+#include "motion_blur/bright_points_shared.h"
 #include "motion_blur/resolved_rays.glsl"
 
 layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
@@ -40,6 +41,30 @@ ShutterRay makeSampleRay(FrameRef frame, TimedRef moving, vec2 place, uint insta
     ray.eye += aside;
     ray.origin += aside;
     return ray;
+}
+
+/// The colour that a ray met. A point that this frame's raster shows, and that was taken out of it, is
+/// drawn as a disc, which has all of its light.
+/// \param place in the picture that the ray starts from
+vec3 colorOfRay(DistributedSample seen, PixelSearch search, vec2 place, uint instant) {
+    vec3 color = storableColor(seen.radiance);
+    if (!kHasLens) return color;
+    uint key = keyOfId(seen.id.entity);
+    uint mover = findMover(search.raster, key);
+    if (mover == kNoMover || isDeformed(mover)) return color;
+    InstantMotion motion = motionAt(method, kHasLens, search.raster, mover, instant);
+    vec3 inRaster =
+        transformRows(motion.rasterFromInstant, pictureSpace(place, depthOfKey(key, seen.depth), true));
+    vec2 at = projectPicture(inRaster, true);
+    if (inRaster.z < kMinDepth || !isInside(at)) return color;
+    Footprint footprint = footprintOf(at);
+    for (uint i = 0u; i < 4u; ++i) {
+        ivec2 texel = texelOf(footprint, i);
+        vec4 taken = textureLod(uColor, uvOf(vec2(texel) + 0.5f), 0.0f);
+        if (taken.a == kTakenOutAlpha && fetchSurface(kRasterLayer, texel).key == key)
+            return min(color, taken.rgb);
+    }
+    return color;
 }
 
 void main() {
@@ -66,10 +91,10 @@ void main() {
             uint index = first + uint(findLSB(traced));
             uint instant = instantOf(search, index);
             float s = timeOf(motions, instant);
-            ShutterRay ray =
-                makeSampleRay(frame, moving, placeOfRay(search, index), instant, s);
+            vec2 place = placeOfRay(search, index);
+            ShutterRay ray = makeSampleRay(frame, moving, place, instant, s);
             DistributedSample seen = traceDistributed(uScene, frame, moving, ray, s);
-            mean.sum += storableColor(seen.radiance);
+            mean.sum += colorOfRay(seen, search, place, instant);
             ++mean.known;
             if (kHasLens)
                 mean.confusionPx = min(mean.confusionPx, confusionAt(motions, seen.depth));

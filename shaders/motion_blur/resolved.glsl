@@ -108,15 +108,19 @@ InstantMotion shearMotion(InstantMotion motion, uint mover, vec4 lens) {
     return motion;
 }
 
+/// A rigid mover at a sample's time, for the pinhole in the lens's middle. There must be a lens.
+InstantMotion pinholeMotion(ResolvedParams method, LayerMotion layer, uint mover, uint sample_) {
+    return InstantMotionTable(layer.motions).motions[mover * (method.instantCount / kLensSets) + sample_];
+}
+
 /// A rigid mover at an instant.
 /// \param hasLens each instant has a place of the lens
 InstantMotion motionAt(
     ResolvedParams method, bool hasLens, LayerMotion layer, uint mover, uint instant
 ) {
-    InstantMotionTable table = InstantMotionTable(layer.motions);
-    if (!hasLens) return table.motions[mover * method.instantCount + instant];
+    if (!hasLens) return InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
     return shearMotion(
-        table.motions[mover * (method.instantCount / kLensSets) + instant / kLensSets], mover,
+        pinholeMotion(method, layer, mover, instant / kLensSets), mover,
         lensOf(InstantMotionsRef(method.motions), instant)
     );
 }

@@ -75,19 +75,17 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
 
 /// Searches the pixel's sample on a part.
 /// \param candidate with a part
+/// \param s shutter time
+/// \param lens lensOf(), with kHasLens
 void searchPart(
-    uint layer, Candidate candidate, uint instant, vec2 x, inout Seen found, inout Doubt doubt
+    uint layer, Candidate candidate, float s, vec4 lens, vec2 x, inout Seen found, inout Doubt doubt
 ) {
     TilePart part = getTilePart(layer, candidate.key & ~kPartBit);
-    InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    float s = timeOf(motions, instant);
     PartWay way = wayAt(part, s);
     PartBack back = invertWay(part, way);
     vec2 at = placeBack(back, x);
     float reach = min(way.deviation * stretchOf(back), kMaxDeviationReachPx);
-    vec4 lens = vec4(0.0f);
     if (kHasLens) {
-        lens = lensOf(motions, instant);
         vec2 nearest = lensShift(lens, uintBitsToFloat(candidate.nearest));
         vec2 farthest = lensShift(lens, uintBitsToFloat(~candidate.farthestInverted));
         at = placeBack(back, x - 0.5f * (nearest + farthest));

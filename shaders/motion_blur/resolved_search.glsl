@@ -284,6 +284,7 @@ void searchLayer(
     uint index, LayerMotion layer, PixelSearch pixel, uint instant, uint slots, inout Guess guess,
     inout Seen best, inout Doubt doubt
 ) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
     slots &= getPart(index, pixel.tile, partOf(instant, pixel.partsPerInstant));
     while (slots != 0u) {
         Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
@@ -294,7 +295,10 @@ void searchLayer(
             break;
         Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
         if (isDeformed(candidate.mover))
-            searchPart(index, candidate, instant, pixel.x, found, doubt);
+            searchPart(
+                index, candidate, timeOf(motions, instant),
+                kHasLens ? lensOf(motions, instant) : vec4(0.0f), pixel.x, found, doubt
+            );
         else
             searchDepths(
                 index, candidate, motionAt(method, kHasLens, layer, candidate.mover, instant),

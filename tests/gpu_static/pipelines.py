@@ -36,14 +36,14 @@ VARIANTS = (
 )
 # What takes the time of a frame. Each of these is pinned, in all its variants.
 HOT = (
-    "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "deform", "edge",
-    "filter lens", "find block samples", "find parts", "find parts, last frame",
-    "find parts, second raster", "fit planes", "gather", "gather and composite", "gather uniform",
-    "guertin2014", "instant surfaces", "jimenez2014", "list candidates",
+    "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "deform",
+    "draw bright points", "edge", "filter lens", "find block samples", "find bright points", "find parts",
+    "find parts, last frame", "find parts, second raster", "fit planes", "gather", "gather and composite",
+    "gather uniform", "guertin2014", "instant surfaces", "jimenez2014", "list candidates",
     "list candidates, last frame", "list candidates, second raster", "list crowds", "mcguire2012",
     "pack surface", "particle composite", "particles", "ray mask", "ray reveal", "resolve",
-    "resolve uniform", "rosado2007", "shape ways", "sort candidates", "split edges",
-    "split samples", "stochastic rays", "taa", "tile max", "trace samples",
+    "resolve uniform", "rosado2007", "shape ways", "sort candidates", "split edges", "split samples",
+    "stochastic rays", "taa", "tile max", "trace samples",
 )
 # Statistics of the driver, by the names that tables and pins use. Waves are those of 32 lanes that a
 # SIMD can hold, also where the shader has 64.

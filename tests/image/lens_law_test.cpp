@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -179,6 +180,217 @@ TEST_F(LensLight, AMirroredSceneIsTheMirroredPicture) {
             EXPECT_GE(near, least) << method << " " << blades;
         }
     }
+}
+
+/// Adds a square that shines, from border to border of pixels if `centrePx` is a whole number.
+/// \param centrePx from the picture's middle, right and up
+void addLamp(
+    SceneBuilder& scene,
+    double sidePx,
+    math::dvec2 centrePx,
+    double depth,
+    float radiance,
+    double speedPx = 0.0
+) {
+    scene::Material lamp;
+    lamp.baseColorFactor = {0, 0, 0, 1};
+    lamp.emissive = math::vec3(radiance);
+    const double metres = depth / kPxPerUnit; // of a pixel
+    scene.add(
+        test::makeQuad(sidePx * metres, sidePx * metres, scene.addMaterial(lamp)),
+        {.position = {centrePx.x * metres, centrePx.y * metres, -depth},
+         .velocity = {speedPx * metres, 0, 0}}
+    );
+}
+
+constexpr CameraLens kWideOpen{.fStop = 0.05, .focusDistance = 3.0};
+
+double computeConfusionRadius(const CameraLens& lens, double depth) {
+    return 0.5 * scene::computeConfusionDiameter(
+                     lens, scene::computeLensRadius(lens, kView), depth, kPxPerUnit
+                 );
+}
+
+/// Greatest difference from an even disc of a light, away from its border, as a share of it.
+double findUnevenness(
+    const image::Image& seen, math::dvec2 centrePx, double radius, double light, double marginPx
+) {
+    const double inside = light / (std::numbers::pi * radius * radius);
+    double worst = 0.0;
+    for (uint32_t y = 0; y < kHigh; ++y)
+        for (uint32_t x = 0; x < kWide; ++x) {
+            const math::dvec2 from(
+                x + 0.5 - kWide / 2.0 - centrePx.x, kHigh / 2.0 - y - 0.5 - centrePx.y
+            );
+            const double beyond = glm::length(from) - radius;
+            if (std::abs(beyond) > marginPx)
+                worst = std::max(
+                    worst, std::abs(seen.at(x, y, 1) / inside - (beyond < 0.0 ? 1.0 : 0.0))
+                );
+        }
+    return worst;
+}
+
+TEST_F(LensLight, ABrightPointOutOfFocusIsAnEvenDiscOfItsLight) {
+    constexpr float kRadiance = 40.0f;
+    constexpr double kSidePx = 2.0;
+    for (const double depth : {1.5, 2.0, 6.0, 30.0})
+        for (const double shift : {0.0, 1.0}) { // across the corner of four squares, and in one
+            SceneBuilder scene = makeStage(kWideOpen);
+            addLamp(scene, kSidePx, {shift, shift}, depth, kRadiance);
+            const image::Image seen =
+                test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+            const double light = kSidePx * kSidePx * kRadiance;
+            const double radius = computeConfusionRadius(kWideOpen, depth);
+            ASSERT_GT(radius, 3.0);
+            const double uneven = findUnevenness(seen, {shift, shift}, radius, light, 1.8);
+            RecordProperty(
+                fmt::format("{}_{}", depth, shift),
+                fmt::format("{:.4f} {:.4f}", sumLight(seen) / light, uneven)
+            );
+            EXPECT_NEAR(sumLight(seen) / light, 1.0, 0.005) << depth << " " << shift;
+            EXPECT_LE(uneven, 0.02) << depth << " " << shift;
+        }
+}
+
+TEST_F(LensLight, RaysOfAdaptiveDoNotAddTheLightOfABrightPointAgain) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << "adaptive needs ray queries";
+    Shot shot = makeLensShot("adaptive");
+    shot.settings.raysPerPixel = std::numeric_limits<float>::infinity();
+    for (const double depth : {1.5, 30.0}) {
+        SceneBuilder scene = makeStage(kWideOpen);
+        addLamp(scene, 2.0, {1.0, 1.0}, depth, 40.0f);
+        const image::Image seen = test::renderOnce(device(), scene, shot).color;
+        const double radius = computeConfusionRadius(kWideOpen, depth);
+        EXPECT_NEAR(sumLight(seen) / 160.0, 1.0, 0.005) << depth;
+        EXPECT_LE(findUnevenness(seen, {1.0, 1.0}, radius, 160.0, 1.8), 0.02) << depth;
+    }
+}
+
+TEST_F(LensLight, ABrightPointAtThePicturesBorderIsThePartOfItsDiscThatLiesInside) {
+    const double depth = 30.0;
+    const math::dvec2 corner(-(kWide / 2.0 - 1.0), kHigh / 2.0 - 1.0);
+    for (const float radiance : {40.0f, 65000.0f}) { // as bright as a picture may be
+        SceneBuilder scene = makeStage(kWideOpen);
+        addLamp(scene, 2.0, corner, depth, radiance);
+        const image::Image seen = test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+        const double radius = computeConfusionRadius(kWideOpen, depth);
+        EXPECT_LE(findUnevenness(seen, corner, radius, 4.0 * radiance, 1.8), 0.02) << radiance;
+    }
+}
+
+TEST_F(LensLight, ABrightPointIsTheImageOfTheOpeningAsOfManyPlaces) {
+    CameraLens lens = kWideOpen;
+    lens.blades = 3;
+    lens.bladeRotation = 0.4;
+    lens.squeeze = 0.7;
+    for (const double roundness : {0.0, 0.3})
+        for (const double depth : {1.5, 30.0}) {
+            lens.roundness = roundness;
+            SceneBuilder scene = makeStage(lens);
+            addLamp(scene, 2.0, {1.0, 1.0}, depth, 40.0f);
+            const image::Image seen =
+                test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+            Shot shot = makeLensShot("accumulate");
+            shot.instants = 1024;
+            const image::Image many = test::renderOnce(device(), scene, shot).color;
+            float brightest = 0.0f;
+            for (const float value : many.pixels)
+                brightest = std::max(brightest, value);
+            const double decibels = image::computePsnr(seen, many) + 20.0 * std::log10(brightest);
+            RecordProperty(
+                fmt::format("{}_{}", roundness, depth),
+                fmt::format("{:.1f} {:.4f}", decibels, sumLight(seen) / 160.0)
+            );
+            EXPECT_NEAR(sumLight(seen) / 160.0, 1.0, 0.015) << roundness << " " << depth;
+            EXPECT_GE(decibels, 45.0) << roundness << " " << depth;
+            const math::dvec2 apart = test::computeCentroid(seen) - test::computeCentroid(many);
+            EXPECT_LE(glm::length(apart), 0.1) << roundness << " " << depth;
+        }
+}
+
+TEST_F(LensLight, ANearerEdgeInFocusHidesThePartOfABrightDiscThatItCovers) {
+    const CameraLens lens{.fStop = 0.05, .focusDistance = 2.0};
+    const double depth = 8.0;
+    const math::dvec2 centre(2.0, 0.0);
+    const auto draw = [&](bool isThere) {
+        SceneBuilder scene = makeHalfPlane(lens, 2.0, 20.0);
+        addLamp(scene, 2.0, centre, depth, isThere ? 40.0f : 0.0f);
+        return test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+    };
+    const image::Image dark = draw(false);
+    const image::Image lit = draw(true);
+    const double radius = computeConfusionRadius(lens, depth);
+    ASSERT_GT(radius, 4.0 + centre.x);
+    const double inside = 160.0 / (std::numbers::pi * radius * radius);
+    for (uint32_t y = 0; y < kHigh; ++y)
+        for (uint32_t x = 0; x < kWide; ++x) {
+            const math::dvec2 from(x + 0.5 - kWide / 2.0 - centre.x, kHigh / 2.0 - y - 0.5);
+            const double added = lit.at(x, y, 1) - dark.at(x, y, 1);
+            if (x + 1 < kWide / 2) {
+                ASSERT_NEAR(added, 0.0, 4e-3) << x << " " << y;
+            } else if (x > kWide / 2 && glm::length(from) < radius - 1.8) {
+                ASSERT_NEAR(added, inside, 0.05 * inside) << x << " " << y;
+            }
+        }
+}
+
+TEST_F(LensLight, AMovingBrightPointLeavesTheLightAndThePlaceOfManyPictures) {
+    for (const double speedPx : {2.0, 30.0}) { // over the exposure
+        SceneBuilder scene = makeStage(kWideOpen);
+        addLamp(scene, 2.0, {0.0, 0.0}, 30.0, 40.0f, speedPx / 0.2);
+        const auto draw = [&](std::string_view method) {
+            Shot shot = makeLensShot(method);
+            shot.exposureSeconds = 0.2;
+            return test::renderOnce(device(), scene, shot).color;
+        };
+        const image::Image seen = draw("resolved");
+        const image::Image many = draw("accumulate");
+        const math::dvec2 apart = test::computeCentroid(seen) - test::computeCentroid(many);
+        RecordProperty(
+            fmt::format("{}", speedPx),
+            fmt::format(
+                "{:.4f} {:.3f} {:.1f}",
+                sumLight(seen) / sumLight(many),
+                glm::length(apart),
+                image::computePsnr(seen, many)
+            )
+        );
+        // At its border some samples see it in the last frame's raster, which holds it yet.
+        EXPECT_NEAR(sumLight(seen) / sumLight(many), 1.0, 0.045) << speedPx;
+        EXPECT_LE(glm::length(apart), 0.2) << speedPx;
+    }
+}
+
+TEST_F(LensLight, BrightPointsBeyondTheMaximumKeepTheirLightAndTheSameBitsInEachRun) {
+    constexpr int kAcross = 6;
+    const auto draw = [&] {
+        SceneBuilder scene = makeStage(kWideOpen);
+        for (int i = 0; i < kAcross * kAcross; ++i)
+            addLamp(
+                scene, 1.0, {6.0 * (i % kAcross) - 14.5, 6.0 * (i / kAcross) - 14.5}, 30.0, 40.0f
+            );
+        return test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+    };
+    const image::Image first = draw();
+    EXPECT_NEAR(sumLight(first) / (kAcross * kAcross * 40.0), 1.0, 0.012);
+    EXPECT_TRUE(test::sameBits(draw(), first));
+}
+
+TEST_F(LensLight, ABrightAreaIsNoPointSoThatAHundredTimesItsLightIsTheSamePicture) {
+    const auto draw = [&](float radiance) {
+        SceneBuilder scene = makeStage(kWideOpen);
+        addLamp(scene, 14.0, {5.0, 3.0}, 30.0, radiance);
+        return test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+    };
+    image::Image dim = draw(0.25f);
+    for (float& value : dim.pixels)
+        value *= 128.0f;
+    image::Image bright = draw(32.0f);
+    for (size_t i = 3; i < bright.pixels.size(); i += 4)
+        dim.pixels[i] = bright.pixels[i]; // alpha
+    EXPECT_TRUE(test::sameBits(bright, dim));
 }
 
 TEST_F(LensLight, TwiceTheFNumberHalvesTheDiscInResolvedToo) {

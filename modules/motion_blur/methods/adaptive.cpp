@@ -9,6 +9,7 @@
 #include "modules/motion_blur/passes/dispatch.h"
 #include "modules/motion_blur/passes/host_samples_pass.h"
 #include "modules/motion_blur/passes/instant_surfaces.h"
+#include "modules/motion_blur/passes/lens_discs.h"
 #include "modules/motion_blur/passes/resolve_pass.h"
 #include "modules/motion_blur/shared_passes.h"
 
@@ -35,8 +36,8 @@ gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout) {
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mResolvePass(device, true), mSurfaces(device), mOwnSamples(device),
-          mTrace(device, describeTrace(sceneLayout)) {}
+        : mDevice(device), mResolvePass(device, true), mSurfaces(device), mDiscs(device),
+          mOwnSamples(device), mTrace(device, describeTrace(sceneLayout)) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -60,6 +61,7 @@ class AdaptivePasses : public MethodPasses {
     gpu::Device& mDevice;
     ResolvePass mResolvePass;
     InstantSurfacesPass mSurfaces;
+    LensDiscs mDiscs;
     HostSamplesPass mOwnSamples;
     SearchPipelines mTrace;
 };
@@ -91,7 +93,9 @@ MotionBlurOutputs AdaptivePasses::add(
         mOwnSamples.add(graph, *inputs.samples, found, params);
     else if (inputs.timedRays)
         addTrace(graph, *inputs.timedRays, found, params);
-    return mResolvePass.end(graph, inputs, found, params, shared);
+    MotionBlurOutputs outputs = mResolvePass.end(graph, inputs, found, params, shared);
+    outputs.color = mDiscs.add(graph, found, outputs.color, params);
+    return outputs;
 }
 
 void AdaptivePasses::addTrace(

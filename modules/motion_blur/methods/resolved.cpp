@@ -5,6 +5,7 @@
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/instant_surfaces.h"
+#include "modules/motion_blur/passes/lens_discs.h"
 #include "modules/motion_blur/passes/resolve_pass.h"
 #include "modules/motion_blur/shared_passes.h"
 
@@ -16,7 +17,8 @@ namespace {
 
 class ResolvedPasses : public MethodPasses {
   public:
-    explicit ResolvedPasses(gpu::Device& device) : mResolvePass(device, false), mSurfaces(device) {}
+    explicit ResolvedPasses(gpu::Device& device)
+        : mResolvePass(device, false), mSurfaces(device), mDiscs(device) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -30,7 +32,9 @@ class ResolvedPasses : public MethodPasses {
         params.setMethod(own);
         ResolvePassOutputs found = mResolvePass.add(graph, inputs, settings, params, shared);
         mSurfaces.add(graph, inputs.surfaces, found, params);
-        return mResolvePass.end(graph, inputs, found, params, shared);
+        MotionBlurOutputs outputs = mResolvePass.end(graph, inputs, found, params, shared);
+        outputs.color = mDiscs.add(graph, found, outputs.color, params);
+        return outputs;
     }
 
     void count(uint32_t slot, Counters& counters) const override {
@@ -40,6 +44,7 @@ class ResolvedPasses : public MethodPasses {
   private:
     ResolvePass mResolvePass;
     InstantSurfacesPass mSurfaces;
+    LensDiscs mDiscs;
 };
 
 } // namespace

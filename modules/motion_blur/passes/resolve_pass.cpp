@@ -86,6 +86,7 @@ struct InitialBuffers {
     std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
     std::array<DeformingTiles, 3> deforming;       ///< the same; invalid: nothing deforms
     CrowdBuffers crowds;                           ///< invalid: no tile can be crowded
+    BrightPointBuffers points;                     ///< invalid: none are taken out
     SortedBlocks blocks;
 };
 
@@ -94,6 +95,7 @@ InitialBuffers createInitialBuffers(
     const SurfaceLayersOutputs& layers,
     const PassParams& params,
     bool listsPixels,
+    bool takesPoints,
     const InstantMotions& motions,
     Clears& clears
 ) {
@@ -125,6 +127,8 @@ InitialBuffers createInitialBuffers(
     create(layers.last, LayerIndex::Last);
     if (motions.mayCrowd)
         initial.crowds = Crowds::create(graph, params, clears);
+    if (takesPoints)
+        initial.points = BrightPoints::create(graph, params, clears);
     // Blocks of crowded tiles use the list that otherwise holds candidates of the ray mask.
     initial.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
     return initial;
@@ -225,7 +229,7 @@ const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool ha
 
 ResolvePass::ResolvePass(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
-      mCrowds(device), mParts(device), mLensFilter(device),
+      mCrowds(device), mParts(device), mPoints(device), mLensFilter(device),
       mSort(
           device,
           describePass(
@@ -273,9 +277,21 @@ ResolvePassOutputs ResolvePass::add(
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
     Clears clears;
-    const InitialBuffers initial =
-        createInitialBuffers(graph, search.layers, params, mListsPixels, motions, clears);
+    // A host's rays would meet the points that discs stand for.
+    const bool takesPoints = motions.hasLens && !inputs.samples;
+    const InitialBuffers initial = createInitialBuffers(
+        graph, search.layers, params, mListsPixels, takesPoints, motions, clears
+    );
     clears.declare(graph);
+    if (takesPoints) {
+        const BrightPointBuffers cleared{
+            clears.get(initial.points.counts),
+            initial.points.points,
+            clears.get(initial.points.arguments)};
+        const BrightPointOutputs taken = mPoints.add(graph, inputs.color, raster, cleared, params);
+        search.layers.raster.color = taken.color;
+        outputs.points = taken.buffers;
+    }
     outputs.listed = initial.listed;
     if (mListsPixels)
         outputs.listed.arguments = clears.get(initial.listed.arguments);

@@ -7,6 +7,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/block_samples.h"
+#include "modules/motion_blur/passes/bright_points.h"
 #include "modules/motion_blur/passes/candidate_lists.h"
 #include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/deforming_parts.h"
@@ -69,6 +70,7 @@ class SearchPipelines {
 struct ResolvePassOutputs {
     SearchResources search;
     SortedBlocks blocks;
+    BrightPointBuffers points;                                ///< that LensDiscs draws
     ListedPixels listed;                                      ///< invalid unless pixels were listed
     graph::ImageHandle picture;                               ///< with all blocks that move written
     StaticPixelsBy stillPixelsBy = StaticPixelsBy::WholeCopy; ///< how `picture` gets the others
@@ -120,6 +122,7 @@ class ResolvePass {
     CandidateLists mCandidates;
     Crowds mCrowds;
     DeformingParts mParts;
+    BrightPoints mPoints;
     LensFilter mLensFilter;
     gpu::LazyPipeline mSort;
     BlockSamples mBlocks;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The disc of a bright point out of focus: the image of the lens's opening, which has the light of the
+// point. The including shader has the push constants `params` and `method`.
+#ifndef SHUTTER_BRIGHT_POINTS_GLSL
+#define SHUTTER_BRIGHT_POINTS_GLSL
+
+#include "common/aperture.glsl"
+#include "motion_blur/bright_points_shared.h"
+#include "motion_blur/resolved.glsl"
+
+uvec2 countRegions(uvec2 sizePx) { return (sizePx + kPointRegionPx - 1u) / kPointRegionPx; }
+
+/// Where a disc lies at a sample's time.
+struct Disc {
+    bool isThere;
+    vec2 at;         // of the point as a pinhole sees it
+    float along;     // 1 / depth of the point
+    float confusion; // radius; negative: the point is nearer than the focus. Pixels
+};
+
+Aperture apertureOf(InstantMotionsRef motions) {
+    vec4 shape = motions.value.aperture;
+    return Aperture(uint(shape.x), shape.y, shape.z, shape.w);
+}
+
+Disc discAt(BrightPoint point, uint sample_) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    Disc disc = Disc(false, vec2(0.0f), 0.0f, 0.0f);
+    InstantMotion motion = pinholeMotion(method, motions.value.raster, point.mover, sample_);
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return disc;
+    float depth = point.along > 0.0f ? 1.0f / point.along : 1.0f;
+    vec3 seen = transformRows(motion.instantFromRaster, pictureSpace(point.at, depth, true));
+    if (!(seen.z >= kMinDepth)) return disc;
+    LensReach reach = reachOf(motions, sample_);
+    disc.at = projectPicture(seen, true);
+    disc.along = point.along > 0.0f ? 1.0f / seen.z : 0.0f;
+    disc.confusion = reach.radius * (reach.inverseFocus - disc.along);
+    disc.isThere = true;
+    return disc;
+}
+
+/// How far a place lies inside the opening's image, pixels; negative: outside.
+/// \param from the disc's middle
+float insideDisc(Aperture aperture, vec2 from, float confusion) {
+    vec2 place = vec2(from.x / aperture.squeeze, -from.y) / confusion;
+    float radius = max(length(place), 1.0e-6f);
+    vec2 border = apertureBorder(aperture, atan(place.y, place.x));
+    // Where the opening is squeezed, distances across its border are as well.
+    float squeezed = length(vec2(place.x / aperture.squeeze, place.y)) / radius;
+    return (border.x - radius) * border.y * abs(confusion) / max(squeezed, 1.0e-6f);
+}
+
+/// Light of a pixel of the disc per light of its point. At the border it is the mean of 2 x 2 places: the
+/// pixels of a small disc would not have its light else.
+/// \param from the disc's middle
+/// \param area apertureArea()
+/// \param width over which the border rises at each place
+float shareOfDisc(Aperture aperture, vec2 from, float confusion, float area, float width) {
+    // A border that rises over a width goes round a larger area than one that rises at once, but if it
+    // lies farther in: by so much of a disc of that area.
+    float inset = sqrt(kApertureHalfTurn / area) * width * width / (24.0f * abs(confusion));
+    float inside = insideDisc(aperture, from, confusion) - inset;
+    float coverage = inside > 0.0f ? 1.0f : 0.0f;
+    if (abs(inside) < 0.5f * width + 0.5f) {
+        coverage = 0.0f;
+        for (uint i = 0u; i < 4u; ++i) {
+            vec2 place = from + 0.5f * vec2(i & 1u, i >> 1u) - 0.25f;
+            float at = insideDisc(aperture, place, confusion) - inset;
+            coverage += 0.25f * clamp(at / width + 0.5f, 0.0f, 1.0f);
+        }
+    }
+    return coverage / (area * confusion * confusion);
+}
+
+#endif
