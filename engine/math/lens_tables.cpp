@@ -56,7 +56,10 @@ void addLens(std::span<const ThinLens> lenses, const ThinLens& raster, InstantLa
     const double radius = raster.radius * raster.pixelsPerUnit.y;
     layers.confusion = vec2(dvec2(radius / raster.focusDistance, radius));
     const shader::Aperture& shape = raster.aperture;
-    layers.aperture = {float(shape.blades), shape.rotation, shape.roundness, shape.squeeze};
+    // Radii count in pixels down the picture; a host's need not be square.
+    const double aspect = raster.pixelsPerUnit.x / raster.pixelsPerUnit.y;
+    layers.aperture = {
+        float(shape.blades), shape.rotation, shape.roundness, float(shape.squeeze * aspect)};
     layers.raster.isStatic = false;
     for (std::optional<LayerTables>* const layer : {&layers.second, &layers.last})
         if (*layer)

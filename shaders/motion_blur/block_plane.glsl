@@ -26,8 +26,8 @@ struct PlaneMap {
     vec2 perX;
     vec2 perY;
     float pxPerAlong; // how far off the place is where the surface is off the plane
-    // With a lens alone, at the instant, by the middle set: of what the block's centre sees, and how
-    // much 1 / depth grows per pixel.
+    // With a lens alone, at the instant: depth of what the block's centre sees by the middle set, and
+    // how much 1 / depth grows per pixel of a pinhole's picture.
     float depth;
     vec2 slope;
 };

@@ -44,7 +44,8 @@ Disc discAt(BrightPoint point, uint sample_) {
 float insideDisc(Aperture aperture, vec2 from, float confusion) {
     vec2 place = vec2(from.x / aperture.squeeze, -from.y) / confusion;
     float radius = max(length(place), 1.0e-6f);
-    vec2 border = apertureBorder(aperture, atan(place.y, place.x));
+    float angle = place != vec2(0.0f) ? atan(place.y, place.x) : 0.0f; // undefined there
+    vec2 border = apertureBorder(aperture, angle);
     // Where the opening is squeezed, distances across its border are as well.
     float squeezed = length(vec2(place.x / aperture.squeeze, place.y)) / radius;
     return (border.x - radius) * border.y * abs(confusion) / max(squeezed, 1.0e-6f);

@@ -32,6 +32,9 @@ const uint kTilePixels = kPointTilePx * kPointTilePx;
 const float kMinLight = 1.0f;
 /// Radius of the circle of confusion below which samples lie close enough, pixels.
 const float kMinRadiusPx = 3.0f;
+/// Points of a region times the square of their radius: bounds how many discs a pixel lies in, to some 25
+/// up to a radius of 90 px, beyond which each region still has one.
+const float kMaxRegionArea = 8192.0f;
 /// Farthest that a disc reaches from its point in the raster, pixels.
 const float kMaxReachPx = 256.0f;
 // What is around a point is looked at in so many directions, at a distance of half the radius, but
@@ -105,7 +108,9 @@ Bright findBright(ivec2 pixel) {
     if (!findAround(pixel, own, clamp(0.5f * abs(radius), kMinAroundPx, kMaxAroundPx), around)) return none;
     vec3 rest = min(max(around, vec3(0.0f)), color);
     if (!(luminance(color - rest) > kMinLight)) return none;
-    return Bright(color - rest, rest, key, along, radius);
+    // Samples of the pixel that another surface covers do not show it.
+    float share = 1.0f - 0.25f * float(bitCount(otherSamplesOf(surface)));
+    return Bright(share * (color - rest), rest, key, along, radius);
 }
 
 bool isSamePoint(Bright a, Bright b) {
@@ -134,7 +139,8 @@ bool boundDisc(inout BrightPoint point, Aperture aperture) {
     vec2 radii = vec2(3.0e38f, -3.0e38f); // they have a sign
     for (uint i = 0u; i < params.sampleCount; ++i) {
         Disc disc = discAt(point, i);
-        if (!disc.isThere || !(abs(disc.confusion) >= kMinRadiusPx)) return false;
+        float narrowest = abs(disc.confusion) * min(aperture.squeeze, 1.0f);
+        if (!disc.isThere || !(narrowest >= kMinRadiusPx)) return false;
         nearest = min(nearest, disc.at);
         farthest = max(farthest, disc.at);
         radii = vec2(min(radii.x, disc.confusion), max(radii.y, disc.confusion));
@@ -207,6 +213,14 @@ void main() {
     }
     if (gl_LocalInvocationIndex == 0u) uCounts[region] = min(count, kMaxRegionPoints);
     if (!has_ || rank >= kMaxRegionPoints) return;
+    float largest = 0.5f * max(point.high.x - point.low.x, point.high.y - point.low.y);
+    if (rank > 0u && float(rank + 1u) * largest * largest > kMaxRegionArea) {
+        // It stays samples, and its slot is drawn nowhere.
+        point.low = vec2(3.0e38f);
+        point.high = vec2(-3.0e38f);
+        uPoints[region * kMaxRegionPoints + rank] = point;
+        return;
+    }
     uPoints[region * kMaxRegionPoints + rank] = point;
     takeOut(corner, strongest);
     vec2 reach = max(point.at - point.low, point.high - point.at);

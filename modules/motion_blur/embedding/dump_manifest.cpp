@@ -64,8 +64,6 @@ ordered_json describeConvention(const HostConvention& convention) {
 }
 
 ordered_json describeLens(const HostLens& lens) {
-    if (!lens.isOpen())
-        return {};
     ordered_json root;
     root["radius"] = lens.radius;
     root["focusDistance"] = describeNumber(lens.focusDistance);
@@ -102,7 +100,8 @@ ordered_json describeMotion(const HostMotion& motion) {
     ordered_json& ids = root["rowIds"] = ordered_json::array();
     for (const uint64_t id : motion.rowIds)
         ids.push_back(std::to_string(id));
-    root["lens"] = describeLens(motion.lens);
+    if (motion.lens.isOpen())
+        root["lens"] = describeLens(motion.lens);
     return root;
 }
 
