@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-static_assert(alignof(math::vec2) == 4 && alignof(math::vec4) == 4 && alignof(math::mat4) == 4);
+static_assert(alignof(math::vec2) == 4 && alignof(math::vec3) == 4);
+static_assert(alignof(math::vec4) == 4 && alignof(math::mat4) == 4);
 
 struct Member {
     std::string type;
@@ -60,6 +61,7 @@ std::map<std::string, size_t>& sizesOfTypes() {
         {"int", 4},
         {"uint", 4},
         {"vec2", 8},
+        {"vec3", 12},
         {"ivec2", 8},
         {"uvec2", 8},
         {"vec4", 16},
