@@ -32,21 +32,22 @@ const uint kTilePixels = kPointTilePx * kPointTilePx;
 const float kMinLight = 1.0f;
 /// Radius of the circle of confusion below which samples lie close enough, pixels.
 const float kMinRadiusPx = 3.0f;
-/// Points of a region times the square of their radius: bounds how many discs a pixel lies in, to some 25
-/// up to a radius of 90 px, beyond which each region still has one.
+/// Maximum of a region's points times the square of their radius, square pixels. A pixel then lies in some
+/// 25 discs up to a radius of 90 px; beyond it each region still has one.
 const float kMaxRegionArea = 8192.0f;
 /// Farthest that a disc reaches from its point in the raster, pixels.
 const float kMaxReachPx = 256.0f;
-// What is around a point is looked at in so many directions, at a distance of half the radius, but
-// within these, pixels.
+// The surroundings of a point are read in this many directions, at half the radius, between a minimum
+// and a maximum distance in pixels.
 const uint kDirections = 16u;
 const float kMinAroundPx = 4.0f;
 const float kMaxAroundPx = 16.0f;
-/// Of them so many may be bright: lines are points, borders of areas are not.
+/// Maximum number of these directions that may be bright: a line passes as points, the border of an area
+/// does not.
 const uint kMaxBrightDirections = 4u;
 /// Share of a pixel's luminance that is bright next to it.
 const float kBrightShare = 0.25f;
-/// Within which circles of confusion are of one depth, pixels.
+/// Circles of confusion whose radii differ by less count as one depth, pixels.
 const float kSameRadiusPx = 0.5f;
 
 shared float sStrengths[kThreads]; // luminance of the point's light; 0: there is none

@@ -4,6 +4,7 @@
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <thread>
@@ -90,7 +91,7 @@ struct Host : test::HostFrame {
     motion_blur::HostMover mover{0, {}};
 };
 
-/// Of a host that draws over the picture at instants, or passes its own drawing.
+/// Hosts that draw over the picture at instants, or pass a drawing of theirs.
 constexpr const char* kDrawing = "resolved with draws";
 constexpr const char* kBlending = "gather with a layer";
 
@@ -98,12 +99,23 @@ MotionBlurSettings settingsOf(const char* method) {
     return test::settingsOf(method, 7);
 }
 
-/// Of a host with a lens.
+/// Hosts with a lens.
 constexpr const char* kThroughLens = "resolved through a lens";
 constexpr const char* kRaysThroughLens = "adaptive through a lens";
 
-/// Of a host without ids, in whose world nothing moves by itself.
+/// A host without ids, in whose world nothing moves by itself.
 constexpr const char* kStillWorld = "resolved without ids";
+
+constexpr std::array kHosts = {
+    "gather",
+    "hybrid",
+    "resolved",
+    "adaptive",
+    kStillWorld,
+    kDrawing,
+    kBlending,
+    kThroughLens,
+    kRaysThroughLens};
 
 HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     HostPlan plan;
@@ -155,16 +167,7 @@ class EmbeddedAhead : public test::EmbeddedTest {
 
 TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
-        for (const char* method :
-             {"gather",
-              "hybrid",
-              "resolved",
-              "adaptive",
-              kStillWorld,
-              kDrawing,
-              kBlending,
-              kThroughLens,
-              kRaysThroughLens}) {
+        for (const char* method : kHosts) {
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
             const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
@@ -199,16 +202,7 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
 }
 
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
-    for (const char* method :
-         {"gather",
-          "hybrid",
-          "resolved",
-          "adaptive",
-          kStillWorld,
-          kDrawing,
-          kBlending,
-          kThroughLens,
-          kRaysThroughLens})
+    for (const char* method : kHosts)
         for (const bool isAsynchronous : {false, true}) {
             SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());

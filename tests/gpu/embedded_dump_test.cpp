@@ -220,6 +220,11 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
         one.change();
         startDump(1);
         expectReplayed({draw(0, one.settings)});
+        // Older readers refuse the member.
+        const auto bytes = io::readFileBytes(mFolder / "frame_0000.json", 1 << 20);
+        ASSERT_TRUE(bytes.ok());
+        const std::string text(bytes.value().begin(), bytes.value().end());
+        EXPECT_EQ(text.find("\"lens\"") != std::string::npos, mLens.isOpen());
     }
     mHasVectors = true;
     const image::Image box = draw(0);
