@@ -34,6 +34,10 @@ SurfacePoint pointOfFragment() {
     point.uvDensity[0] = textureDensity(dx, dy, uvDx.xy, uvDy.xy);
     point.uvDensity[1] = textureDensity(dx, dy, uvDx.zw, uvDy.zw);
     point.color = inColor;
+#ifdef SHUTTER_SEVERAL_SAMPLES
+    point.uvPerColumn = uvDx;
+    point.uvPerRow = uvDy;
+#endif
     return point;
 }
 

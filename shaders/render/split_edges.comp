@@ -105,5 +105,5 @@ void main() {
     }
     Seen seen = findEntity(motionDepths, ids, own);
     imageStore(uColor, pixel, meanColor(colors, kAll & ~others));
-    storeSurface(pixel, seen.index, others);
+    storeSurface(pixel, seen.index, texelFetch(uSurfaceSamples, pixel, seen.index), others);
 }

@@ -16,7 +16,8 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     // One triangle covers all samples, and blended surfaces, which have colours alone, cover none.
-    uint word = texelFetch(uSurfaceSamples, pixel, 0).w;
+    uvec4 surface = texelFetch(uSurfaceSamples, pixel, 0);
+    uint word = surface.w;
     bool isWhole = params.hasBlended == 0u && (word < kSampleOfPart || word == kNoEntity);
     for (int i = 1; i < int(kSampleCount); ++i)
         isWhole = isWhole && texelFetch(uSurfaceSamples, pixel, i).w == word;
@@ -31,5 +32,5 @@ void main() {
         return;
     }
     imageStore(uColor, pixel, texelFetch(uColorSamples, pixel, 0));
-    storeSurface(pixel, 0, 0u);
+    storeSurface(pixel, 0, surface, 0u);
 }

@@ -15,9 +15,9 @@ layout(binding = 5, rgba32f) uniform writeonly image2D uMotionDepth;
 layout(binding = 6, r32ui) uniform writeonly uimage2D uEntityId;
 
 /// Makes a sample the pixel's own surface.
+/// \param surface of that sample
 /// \param covers GBuffer::motionDepth's fourth
-void storeSurface(ivec2 pixel, int index, uint covers) {
-    uvec4 surface = texelFetch(uSurfaceSamples, pixel, index);
+void storeSurface(ivec2 pixel, int index, uvec4 surface, uint covers) {
     uint row = rowOfSample(surface.w);
     vec3 normal = vec3(0.0f);
     if (row != kNoEntity) normal = unpackNormal(texelFetch(uNormalSamples, pixel, index).x);

@@ -291,6 +291,23 @@ TEST_F(TaaEdge, ASecondRasterMakesSilhouettesNoWorse) {
     EXPECT_LT(measureError(AntiAliasing::Taa), 1.05 * one);
 }
 
+TEST_F(TaaEdge, EdgesInATextureAreSmooth) {
+    slideCamera(1.5);
+    const scene::AssetIndex texture = mScene.addWaveTexture(256);
+    std::vector<uint8_t>& rgba = mScene.world.assets.images.back().rgba;
+    for (size_t i = 0; i < rgba.size(); ++i) // stripes of four texels, of about a pixel each
+        rgba[i] = i / 16 % 2 == 0 || i % 4 == 3 ? 255 : 0;
+    mScene.add(
+        test::makeQuad(40.0, 40.0, mScene.addTextured(texture)),
+        {.position = {0, 0, -9}, .rotation = glm::angleAxis(0.3, math::dvec3(0, 0, 1))}
+    );
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        mMethod = method;
+        EXPECT_LT(measureError(AntiAliasing::Taa), 0.7 * measureError(AntiAliasing::None))
+            << method;
+    }
+}
+
 TEST_F(TaaEdge, AWireThinnerThanAPixelKeepsItsLight) {
     slideCamera(1.5);
     addWall(math::vec3(0.05f), 9.0);
