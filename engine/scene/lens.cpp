@@ -51,6 +51,21 @@ void applyKeys(const FocusMotion& motion, double seconds, CameraLens& lens) {
         lens.fStop = fStopAt(motion, place);
 }
 
+core::Status validateFStop(double fStop, std::string_view prefix) {
+    if (fStop == 0.0 || fStop >= kMinFStop)
+        return {};
+    return core::makeError("{}fStop is {}, it must be 0 or at least {}", prefix, fStop, kMinFStop);
+}
+
+/// As the camera's row of that name, from 0 on.
+core::SettingRow<LensOverride>
+overrideRow(const char* name, double LensOverride::*field, const char* meaning, const char* label) {
+    const core::SettingRow<CameraLens>& row = core::getRow(listLensRows(), name);
+    core::NumberRange range = row.range;
+    range.lowest = 0.0;
+    return {row.name, field, row.unit, range, meaning, label};
+}
+
 } // namespace
 
 core::Status validateFocus(const FocusMotion& focus) {
@@ -200,44 +215,33 @@ core::SettingRows<CameraLens> listLensRows() {
 core::SettingRows<LensOverride> listOverrideRows() {
     using L = LensOverride;
     static const std::array<core::SettingRow<L>, 3> kRows = {{
-        {"fStop",
-         &L::fStop,
-         "",
-         {.lowest = 0,
-          .highest = kMaxFStop,
-          .isLogarithmic = true,
-          .sliderLowest = 0.5,
-          .sliderHighest = 64},
-         "F-number in place of the camera's, at least 0.01: lower is more blur. 0 is the camera's "
-         "own; without one it is a pinhole, all sharp.",
-         "F-number"},
-        {"focusDistance",
-         &L::focusDistance,
-         "m",
-         {.lowest = 0,
-          .highest = kFarthestFocus,
-          .isLogarithmic = true,
-          .sliderLowest = 0.1,
-          .sliderHighest = 100},
-         "Focus distance, along the camera's axis, in place of the camera's, at "
-         "least 0.0001. 0 is the camera's own.",
-         "Focus"},
-        {"blurScale",
-         &L::blurScale,
-         "x",
-         {.lowest = 0, .highest = 2},
-         "Scales the blur of what is out of focus, for players who dislike it. 0: none.",
-         "Depth of field"},
+        overrideRow(
+            "fStop",
+            &L::fStop,
+            "F-number in place of the camera's, at least 0.01: lower is more blur. 0 is the "
+            "camera's own; without one it is a pinhole, all sharp.",
+            "F-number"
+        ),
+        overrideRow(
+            "focusDistance",
+            &L::focusDistance,
+            "Focus distance, along the camera's axis, in place of the camera's, at "
+            "least 0.0001. 0 is the camera's own.",
+            "Focus"
+        ),
+        overrideRow(
+            "blurScale",
+            &L::blurScale,
+            "Scales the blur of what is out of focus, for players who dislike it. 0: none.",
+            "Blur out of focus"
+        ),
     }};
     return kRows;
 }
 
 core::Status validate(const LensOverride& lens, std::string_view prefix) {
     SHUTTER_TRY(core::validateRows(listOverrideRows(), lens, prefix));
-    if (lens.fStop != 0.0 && lens.fStop < kMinFStop)
-        return core::makeError(
-            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kMinFStop
-        );
+    SHUTTER_TRY(validateFStop(lens.fStop, prefix));
     if (lens.focusDistance != 0.0 && lens.focusDistance < kNearestFocus)
         return core::makeError(
             "{}focusDistance is {}, it must be 0 or at least {}",
@@ -250,10 +254,7 @@ core::Status validate(const LensOverride& lens, std::string_view prefix) {
 
 core::Status validate(const CameraLens& lens, std::string_view prefix) {
     SHUTTER_TRY(core::validateRows(listLensRows(), lens, prefix));
-    if (lens.fStop != 0.0 && lens.fStop < kMinFStop)
-        return core::makeError(
-            "{}fStop is {}, it must be 0 or at least {}", prefix, lens.fStop, kMinFStop
-        );
+    SHUTTER_TRY(validateFStop(lens.fStop, prefix));
     if (lens.blades != 0 && lens.blades < kMinBlades)
         return core::makeError("{}blades is {}, it must be 0 or 3 to 16", prefix, lens.blades);
     return {};
