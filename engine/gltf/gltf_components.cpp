@@ -166,7 +166,7 @@ void addAutoFocus(
     for (size_t n = 0; n < entities.size(); ++n) {
         const int camera = context.model.nodes[n].camera;
         if (camera < 0 || entities[n] == ecs::kNullEntity ||
-            !world.registry.has<scene::Camera>(entities[n]))
+            !world.registry.has<scene::CameraLens>(entities[n]))
             continue;
         if (const auto focus = readAutoFocus(context, size_t(camera), entities))
             world.registry.add(entities[n], *focus);

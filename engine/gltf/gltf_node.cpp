@@ -177,12 +177,7 @@ class NodeLoader {
             return;
         addMesh();
         addWaves();
-        if (mNode.camera >= 0) {
-            mRegistry.add<scene::Camera>(mEntity, readCamera(mContext, size_t(mNode.camera)));
-            if (const auto lens = readLens(mContext, size_t(mNode.camera)))
-                mRegistry.add<scene::CameraLens>(mEntity, *lens);
-            mWorld.cameras.push_back(mEntity);
-        }
+        addCamera();
         addLight();
         if (auto particles = readParticles(mContext, mIndex))
             mRegistry.add(mEntity, std::move(*particles));
@@ -237,6 +232,22 @@ class NodeLoader {
         morph.weights = readMorphWeights(mNode.weights, atRest, mPath + ".weights");
         if (!morph.weights.empty())
             mRegistry.add(mEntity, std::move(morph));
+    }
+
+    void addCamera() {
+        if (mNode.camera < 0)
+            return;
+        const auto index = size_t(mNode.camera);
+        const scene::Camera camera = readCamera(mContext, index);
+        const auto lens = readLens(mContext, index);
+        if (lens && camera.kind == scene::CameraKind::Orthographic)
+            mContext.warnings.add(fmt::format(
+                "cameras[{}].extras.lens: an orthographic camera has no lens, it is not used", index
+            ));
+        else if (lens)
+            mRegistry.add<scene::CameraLens>(mEntity, *lens);
+        mRegistry.add<scene::Camera>(mEntity, camera);
+        mWorld.cameras.push_back(mEntity);
     }
 
     void addWaves() {

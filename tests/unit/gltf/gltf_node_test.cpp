@@ -573,6 +573,26 @@ TEST(GltfLens, ANodeMayBeFocusedOn) {
         );
 }
 
+TEST(GltfLens, AnOrthographicCameraHasNoneAndAWarningStatesIt) {
+    const auto load = [](const std::string& lens) {
+        return loadMembers(
+            R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"it","camera":0}],"cameras":)"
+            R"([{"type":"orthographic","orthographic":{"xmag":2,"ymag":2,"znear":0.1,"zfar":9},)"
+            R"("extras":{"lens":{)" +
+            lens + "}}}]"
+        );
+    };
+    const LoadedScene loaded = expectLoads(load(R"("fStop":2,"focusNode":"it")"));
+    EXPECT_FALSE(findLens(loaded));
+    EXPECT_FALSE(loaded.world.registry.has<scene::AutoFocus>(loaded.world.cameras.at(0)));
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_EQ(
+        loaded.warnings[0],
+        "cameras[0].extras.lens: an orthographic camera has no lens, it is not used"
+    );
+    expectRefused(load(R"("fStop":-1)"), "cameras[0].extras.lens.fStop");
+}
+
 TEST(GltfLens, BadValuesAreRefusedByName) {
     expectRefused(loadLens(R"({"lens":1})"), "cameras[0].extras.lens");
     for (const char* member :
