@@ -4,7 +4,7 @@
 #ifndef SHUTTER_BRIGHT_POINTS_GLSL
 #define SHUTTER_BRIGHT_POINTS_GLSL
 
-#include "common/aperture.glsl"
+#include "common/disc_share.glsl"
 #include "motion_blur/bright_points_shared.h"
 #include "motion_blur/resolved.glsl"
 
@@ -37,40 +37,6 @@ Disc discAt(BrightPoint point, uint sample_) {
     disc.confusion = reach.radius * (reach.inverseFocus - disc.along);
     disc.isThere = true;
     return disc;
-}
-
-/// How far a place lies inside the opening's image, pixels; negative: outside.
-/// \param from the disc's middle
-float insideDisc(Aperture aperture, vec2 from, float confusion) {
-    vec2 place = vec2(from.x / aperture.squeeze, -from.y) / confusion;
-    float radius = max(length(place), 1.0e-6f);
-    float angle = place != vec2(0.0f) ? atan(place.y, place.x) : 0.0f; // undefined there
-    vec2 border = apertureBorder(aperture, angle);
-    // Where the opening is squeezed, distances across its border are as well.
-    float squeezed = length(vec2(place.x / aperture.squeeze, place.y)) / radius;
-    return (border.x - radius) * border.y * abs(confusion) / max(squeezed, 1.0e-6f);
-}
-
-/// Light of a pixel of the disc per light of its point. At the border it is the mean of 2 x 2 places: the
-/// pixels of a small disc would not have its light else.
-/// \param from the disc's middle
-/// \param area apertureArea()
-/// \param width over which the border rises at each place
-float shareOfDisc(Aperture aperture, vec2 from, float confusion, float area, float width) {
-    // A border that rises over a width goes round a larger area than one that rises at once, but if it
-    // lies farther in: by so much of a disc of that area.
-    float inset = sqrt(kApertureHalfTurn / area) * width * width / (24.0f * abs(confusion));
-    float inside = insideDisc(aperture, from, confusion) - inset;
-    float coverage = inside > 0.0f ? 1.0f : 0.0f;
-    if (abs(inside) < 0.5f * width + 0.5f) {
-        coverage = 0.0f;
-        for (uint i = 0u; i < 4u; ++i) {
-            vec2 place = from + 0.5f * vec2(i & 1u, i >> 1u) - 0.25f;
-            float at = insideDisc(aperture, place, confusion) - inset;
-            coverage += 0.25f * clamp(at / width + 0.5f, 0.0f, 1.0f);
-        }
-    }
-    return coverage / (area * confusion * confusion);
 }
 
 #endif
