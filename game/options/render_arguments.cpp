@@ -310,11 +310,12 @@ Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
 
 Status checkLens(const ShotOptions& shot, const MethodInfo& method) {
     const bool opens = shot.fStop.value_or(0.0) != 0.0;
-    if (method.hasLens || (!opens && !shot.focusDistance))
+    const bool focuses = shot.focusDistance || !shot.focusEntity.empty();
+    if (method.hasLens || (!opens && !focuses))
         return {};
     return makeError(
         "{}: method {} has no lens yet; use {}",
-        opens ? "--fstop" : "--focus",
+        opens ? "--fstop" : nameFocusOption(shot),
         method.name,
         listLensMethods("or")
     );

@@ -80,6 +80,11 @@ constexpr auto kSizeRow = makeRow<&A::size>(
     "--size", "size of the picture or the window, WxH; default 1280x720, of `play` 960x540"
 );
 
+constexpr auto kFocusEntityRow = makeRow<&A::focusEntity>(
+    "--focus-entity",
+    "node of the scene, by name, on which the camera focuses in place of its own focus"
+);
+
 constexpr auto kFlythroughRow = makeRow<&A::flythrough>(
     "--flythrough",
     "fly the camera along FILE.json or the scene's clip:NAME|INDEX; default: all of its frames",
@@ -171,6 +176,7 @@ Status parseLens(const ShotArguments& arguments, ShotOptions& options) {
         options.fStop = arguments.lens.fStop;
     if (arguments.typed.contains("--focus"))
         options.focusDistance = arguments.lens.focusDistance;
+    options.focusEntity = arguments.focusEntity;
     return {};
 }
 
@@ -195,6 +201,8 @@ void defineLensOptions(CLI::App& command, ShotArguments& arguments) {
     defineSettingOptions(
         command, scene::listLensRows(), arguments.lens, arguments.typed, "the camera's"
     );
+    kFocusEntityRow.define(command, kFocusEntityRow, arguments);
+    command.get_option("--focus-entity")->excludes(command.get_option("--focus"));
 }
 
 void defineSizeOption(CLI::App& command, ShotArguments& arguments) {
@@ -267,7 +275,8 @@ Status loadFlythrough(const ShotArguments& arguments, ShotOptions& options) {
 std::string describe(const ShotArguments& arguments) {
     std::string text = describeRows(OptionRows<A>(kSceneRows), arguments);
     text += describeRows(OptionRows<A>(kShotRows), arguments);
-    text += describeRows(OptionRows<A>(std::span(&kSizeRow, 1)), arguments);
+    for (const auto* row : {&kSizeRow, &kFocusEntityRow})
+        text += describeRows(OptionRows<A>(std::span(row, 1)), arguments);
     text += core::describeValues(environment::listEnvironmentRows(), arguments.surroundings) + " ";
     text += describe(arguments.picture);
     // Interprets the options together; wrong ones are refused before a picture is drawn.

@@ -34,6 +34,7 @@ struct ShotArguments {
     bool loop = false;
     ShutterArguments shutter;
     scene::CameraLens lens{}; ///< its options count if they were typed
+    std::string focusEntity;  ///< name of a node; empty: the focus is the camera's
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t seed = 0;
     PictureSize size{1280, 720};
@@ -54,7 +55,7 @@ void defineSceneOptions(
 );
 /// When a picture is taken, and of which pixels: --time, the shutter's options, --pixel, --unlit.
 void defineShotOptions(CLI::App& command, ShotArguments& arguments);
-/// --fstop, --focus.
+/// --fstop, --focus, --focus-entity.
 void defineLensOptions(CLI::App& command, ShotArguments& arguments);
 /// --size.
 void defineSizeOption(CLI::App& command, ShotArguments& arguments);

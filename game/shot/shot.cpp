@@ -138,10 +138,13 @@ core::Result<ClipFlight> findClipFlight(const scene::World& world, const ShotOpt
 
 /// Gives the camera the lens that the options name. Error: it has none that they could change.
 core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions& options) {
-    if (!options.fStop && !options.focusDistance)
+    // A player's cameras get their lenses later, and any of them may be looked through.
+    const bool focuses =
+        options.focusDistance || (options.usesLens && !options.focusEntity.empty());
+    if (!options.fStop && !focuses)
         return {};
-    const char* option = options.fStop ? "--fstop" : "--focus";
-    const bool closes = options.fStop == 0.0 && !options.focusDistance;
+    const char* option = options.fStop ? "--fstop" : nameFocusOption(options);
+    const bool closes = options.fStop == 0.0 && !focuses;
     if (closes && !scene::hasLens(world, camera))
         return {};
     if (world.registry.get<scene::Camera>(camera).kind == scene::CameraKind::Orthographic)
@@ -160,13 +163,46 @@ core::Status setLens(scene::World& world, ecs::Entity camera, const ShotOptions&
             if (options.focusDistance)
                 key.focusDistance.reset();
         }
-    if (options.focusDistance && !options.fStop && lens.fStop == 0.0 &&
-        !scene::hasLens(world, camera))
-        return makeError("--focus needs --fstop: the camera is a pinhole");
+    if (focuses && !options.fStop && lens.fStop == 0.0 && !scene::hasLens(world, camera))
+        return makeError("{} needs --fstop: the camera is a pinhole", option);
     return {};
 }
 
 } // namespace
+
+const char* nameFocusOption(const ShotOptions& options) {
+    return options.focusEntity.empty() ? "--focus" : "--focus-entity";
+}
+
+core::Status focusOnEntity(
+    scene::World& world, ecs::Entity camera, const ShotOptions& options, const std::string& source
+) {
+    if (options.focusEntity.empty())
+        return {};
+    std::vector<ecs::Entity> named;
+    for (auto [entity, name] : world.registry.view<const scene::Name>())
+        if (name.value == options.focusEntity)
+            named.push_back(entity);
+    if (named.size() != 1)
+        return makeError(
+            "{}: --focus-entity '{}' is the name of {}",
+            source,
+            options.focusEntity,
+            named.empty() ? "no node" : "several nodes"
+        );
+    std::vector<ecs::Entity> cameras = world.cameras;
+    cameras.push_back(camera);
+    for (const ecs::Entity one : cameras) {
+        const auto* own = world.registry.find<scene::AutoFocus>(one);
+        scene::AutoFocus focus = own ? *own : scene::AutoFocus{};
+        focus.target = named.front();
+        world.registry.add(one, focus);
+        if (auto* motion = world.registry.find<scene::FocusMotion>(one))
+            for (scene::FocusKey& key : motion->keys)
+                key.focusDistance.reset();
+    }
+    return {};
+}
 
 core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options) {
     if (!options.camera.empty())
@@ -201,6 +237,7 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
     if (!hasCamera)
         shot.framedAt = findFramingTime(options);
     shot.world.registry.add(shot.camera, options.shutter);
+    SHUTTER_TRY(focusOnEntity(shot.world, shot.camera, options, options.scene.string()));
     SHUTTER_TRY(setLens(shot.world, shot.camera, options));
     if (!options.fStop && shot.world.registry.has<scene::FocusMotion>(shot.camera) &&
         !scene::hasLens(shot.world, shot.camera))

@@ -28,6 +28,17 @@ struct Shot {
 /// own), puts the shutter on it, selects clips, and lights a scene that has no lights.
 [[nodiscard]] core::Result<Shot> loadShot(const ShotOptions& options);
 
+/// The option by which the options focus the camera: "--focus" or "--focus-entity".
+[[nodiscard]] const char* nameFocusOption(const ShotOptions& options);
+
+/// Focuses the camera and those of the world on the entity that `options.focusEntity` names; does
+/// nothing without a name. Error: names the option, `source` and the name, which no entity or
+/// several have.
+/// \param source of the world, for people: a file or a demo
+[[nodiscard]] core::Status focusOnEntity(
+    scene::World& world, ecs::Entity camera, const ShotOptions& options, const std::string& source
+);
+
 /// The shot's view of the frame at `seconds`.
 [[nodiscard]] extract::ViewRequest
 makeView(const Shot& shot, const ShotOptions& options, double seconds);

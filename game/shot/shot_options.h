@@ -52,6 +52,7 @@ struct ShotOptions {
     bool usesLens = false;
     std::optional<double> fStop;         ///< in place of the camera's, at all times
     std::optional<double> focusDistance; ///< likewise, metres
+    std::string focusEntity;             ///< likewise, a node's name; not with focusDistance
     uint32_t width = 0;                  ///< pixels
     uint32_t height = 0;                 ///< pixels
     bool unlit = false;

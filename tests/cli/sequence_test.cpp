@@ -179,6 +179,21 @@ TEST_F(Sequence, AFocusedNodeGivesEachFrameTheSameBitsWhicheverAreDrawnBefore) {
     write(R"("focusDistance": 3)");
     expectSuccess(draw("0:6", "fixed_%d.png", {}));
     EXPECT_TRUE(readFile("fixed_4.png") == readFile("near_4.png"));
+    // The option focuses as a node of the file does.
+    write(R"("focusDistance": 9)");
+    expectSuccess(draw("0:6", "entity_%d.png", {"--focus-entity", "drifter"}));
+    write(R"("focusNode": "drifter")");
+    expectSuccess(draw("0:6", "node_%d.png", {}));
+    for (const int frame : {0, 4, 6})
+        EXPECT_TRUE(
+            readFile(fmt::format("entity_{}.png", frame)) ==
+            readFile(fmt::format("node_{}.png", frame))
+        ) << frame;
+    expectRefusal(
+        draw("0:6", "bad_%d.png", {"--focus-entity", "nobody"}),
+        1,
+        {"focus.gltf", "--focus-entity 'nobody' is the name of no node"}
+    );
     write(R"("focusNode": "nobody")");
     expectRefusal(
         draw("0:6", "bad_%d.png", {}), 1, {"focus.gltf", "extras.lens.focusNode 'nobody'"}
@@ -193,6 +208,11 @@ TEST_F(Sequence, AFocusedNodeGivesEachFrameTheSameBitsWhicheverAreDrawnBefore) {
         draw("0:0", "ortho_%d.png", {"--fstop", "2"}),
         1,
         {"--fstop: an orthographic camera has no focal length, so no lens"}
+    );
+    expectRefusal(
+        draw("0:0", "ortho_%d.png", {"--focus-entity", "drifter"}),
+        1,
+        {"--focus-entity: an orthographic camera has no focal length, so no lens"}
     );
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/check.h"
 #include "game/play/loop/stage.h"
+#include "game/shot/shot.h"
 #include "game/shot/surroundings.h"
 
 #include <algorithm>
@@ -104,6 +105,7 @@ class DemoStage : public Stage {
 
 core::Result<std::unique_ptr<Stage>>
 makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options) {
+    SHUTTER_TRY(focusOnEntity(demo->world(), demo->camera(), options, demo->name()));
     SHUTTER_TRY(addSurroundings(demo->world(), options));
     const DemoAppearance appearance = demo->appearance();
     if (!demo->world().assets.environment && appearance.turbidity > 0.0)

@@ -59,13 +59,14 @@ class Stage {
     [[nodiscard]] virtual std::optional<int> score() const { return std::nullopt; }
 };
 
-/// \param options environment and sky count, before the demo's own sky
-/// Error: an environment that cannot be read.
+/// \param options environment and sky count, before the demo's own sky, and the node to focus on
+/// Error: an environment that cannot be read, a node that the demo lacks.
 [[nodiscard]] core::Result<std::unique_ptr<Stage>>
 makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options);
 
 /// Views a scene file: its cameras, an orbiting one and a flying one.
-/// \param options scene, camera, flythrough, clips, loop, background, ambient and size are used
+/// \param options scene, camera, flythrough, clips, loop, the node to focus on, background, ambient
+/// and size are used
 [[nodiscard]] core::Result<std::unique_ptr<Stage>> loadSceneStage(const ShotOptions& options);
 
 } // namespace shutter::game

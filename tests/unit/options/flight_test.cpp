@@ -207,6 +207,7 @@ TEST(Fingerprint, TheFingerprintHasExactlyThePicturesInputs) {
         {"--ev", {"--ev", "1"}},
         {"--exposure", {"--exposure", "1"}},
         {"--focus", {"--method", "truth", "--focus", "3"}},
+        {"--focus-entity", {"--method", "truth", "--focus-entity", "x"}},
         {"--fps", {"--fps", "25"}},
         {"--frame-fit", {"--frame-fit", "height"}},
         {"--fstop", {"--method", "truth", "--fstop", "8"}},

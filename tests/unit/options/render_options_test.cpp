@@ -310,6 +310,9 @@ TEST_F(RenderOptionsTest, ALensIsForMethodsThatHaveOne) {
         refuse("--focus", Words{"--method=truth", std::string("--focus=") + bad});
     }
     refuse("--focus", Words{"--method=truth", "--focus=0"});
+    EXPECT_EQ(accept(Words{"--method=truth", "--focus-entity=x"}).shot.focusEntity, "x");
+    refuse("--focus-entity: method gather", Words{"--method=gather", "--focus-entity=x"});
+    refuse("--focus", Words{"--method=truth", "--focus=3", "--focus-entity=x"});
     refuse("fStop", Words{"--method=truth", "--fstop=0.001"});
 }
 
