@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace shutter {
 namespace {
@@ -103,6 +104,9 @@ MotionBlurSettings settingsOf(const char* method) {
 constexpr const char* kThroughLens = "resolved through a lens";
 constexpr const char* kRaysThroughLens = "adaptive through a lens";
 
+/// A host whose lens is closed in some frames, which then have more instants.
+constexpr const char* kNoisyLens = "resolved through a lens, with noise";
+
 /// A host without ids, in whose world nothing moves by itself.
 constexpr const char* kStillWorld = "resolved without ids";
 
@@ -115,6 +119,7 @@ constexpr std::array kHosts = {
     kDrawing,
     kBlending,
     kThroughLens,
+    kNoisyLens,
     kRaysThroughLens};
 
 HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
@@ -122,8 +127,9 @@ HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     const bool isStatic = method == kStillWorld;
     const bool draws = method == kDrawing;
     const bool blends = method == kBlending;
-    plan.hasLens = method == kThroughLens || method == kRaysThroughLens;
-    const bool isResolved = isStatic || draws || method == kThroughLens;
+    const bool isNoisy = method == kNoisyLens;
+    plan.hasLens = method == kThroughLens || isNoisy || method == kRaysThroughLens;
+    const bool isResolved = isStatic || draws || method == kThroughLens || isNoisy;
     const bool isAdaptive = method == kRaysThroughLens;
     plan.settings = settingsOf(
         isResolved   ? "resolved"
@@ -131,6 +137,8 @@ HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
         : blends     ? "gather"
                      : method
     );
+    if (isNoisy)
+        plan.settings.instantNoise = motion_blur::InstantNoise::Fixed;
     if (isStatic)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
@@ -174,9 +182,11 @@ TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
             ASSERT_TRUE(reported.ok()) << reported.error().message;
             const auto blur = create(describeHost());
             const Host host(device(), size.x, size.y);
-            for (uint32_t frame = 0; frame < 4; ++frame) {
-                const core::Status done =
-                    draw(*blur, host, frame % 2, host.inputs(plan), plan.settings);
+            for (uint32_t frame = 0; frame < 6; ++frame) {
+                HostInputs in = host.inputs(plan);
+                if (frame >= 4) // a host may close its lens
+                    in.motion.lens = {};
+                const core::Status done = draw(*blur, host, frame % 2, in, plan.settings);
                 ASSERT_TRUE(done.ok()) << done.error().message;
             }
             const auto held = double(blur->living().memoryBytes);
@@ -196,7 +206,8 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
     refuse(plan, "plan.viewCount is 3");
     plan = planOf("gather", 64, 64);
     plan.hasLens = true;
-    refuse(plan, "the method gather has no lens");
+    refuse(plan, "plan.hasLens is true, but the method gather has no lens");
+    test::expectRefusal(create(describeHost())->warmUp(plan), "plan.hasLens is true");
     plan = planOf("denoised", 64, 64);
     refuse(plan, "denoised");
 }
@@ -236,6 +247,34 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
             drawFrames(2);
             EXPECT_EQ(allocations.count(), 0u);
         }
+}
+
+/// Tables of many rows may overflow a tile's list, and have other pipelines than those of few.
+TEST_F(EmbeddedAhead, AWarmUpForManyRowsHasThePipelinesOfFewAndOfMany) {
+    for (const auto& [method, hasHistory] : {std::pair{"resolved", false}, {kThroughLens, true}}) {
+        SCOPED_TRACE(method);
+        const auto blur = create(describeHost());
+        const Host host(device(), 96, 64);
+        HostPlan plan = planOf(method, 96, 64);
+        plan.rowCount = 100;
+        plan.settings.history = hasHistory;
+        const core::Status done = blur->warmUp(plan);
+        ASSERT_TRUE(done.ok()) << done.error().message;
+        const Asked<&vkCreateComputePipelines> pipelines;
+        for (const uint32_t rows : {1u, plan.rowCount})
+            for (const double way : {0.0, 0.5}) { // of the camera over the exposure
+                std::array<motion_blur::HostCameraKey, 2> keys = {host.key, host.key};
+                keys[0].time = 0.0;
+                keys[0].viewFromWorld[3].x = way;
+                HostInputs in = host.inputs(plan);
+                in.motion.keys = keys;
+                in.motion.movers = {};
+                in.motion.rowCount = rows;
+                for (uint32_t frame = 0; frame < 2; ++frame)
+                    EXPECT_TRUE(draw(*blur, host, frame, in, plan.settings).ok());
+            }
+        EXPECT_EQ(pipelines.count(), 0u);
+    }
 }
 
 TEST_F(EmbeddedAhead, AReportHasTimesOfEachPassAndCounters) {

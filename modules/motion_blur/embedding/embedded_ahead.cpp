@@ -8,6 +8,7 @@
 #include <chrono>
 #include <deque>
 #include <initializer_list>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -20,6 +21,17 @@ using core::makeError;
 /// Pipelines do not depend on the size of the picture; this one has all kinds of blocks.
 constexpr uint32_t kWarmUpPixels = 64;
 
+core::Status checkLens(const HostPlan& plan) {
+    const Method& method = *complete(plan.settings).method;
+    if (!plan.hasLens || (method.readsLens && method.readsInstantMotions))
+        return {};
+    return makeError(
+        "motion blur: plan.hasLens is true, but the method {} has no lens; it must be false, or "
+        "the method resolved or adaptive",
+        method.name
+    );
+}
+
 core::Status checkPlan(const HostPlan& plan, uint32_t framesInFlight) {
     if (plan.viewCount < 1 || plan.viewCount > framesInFlight)
         return makeError(
@@ -27,7 +39,12 @@ core::Status checkPlan(const HostPlan& plan, uint32_t framesInFlight) {
             plan.viewCount,
             framesInFlight
         );
-    return {};
+    return checkLens(plan);
+}
+
+/// Whether a view stores its rasters for the next frame.
+bool keepsHistory(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    return settings.method->readsInstantMotions && settings.history && !inputs.last.color.image;
 }
 
 /// Images of a small picture, with placeholder handles.
@@ -117,7 +134,31 @@ template <class Call> auto guard(const Call& call) -> decltype(call()) {
 
 } // namespace
 
+/// What a graph::TransientPool holds that has realized several plans in turn.
+struct EmbeddedMotionBlur::Transients {
+    void add(const graph::Plan& plan) {
+        blockBytes = std::max(blockBytes, plan.blockBytes);
+        std::map<Key, uint32_t> counts;
+        for (const graph::Placement& buffer : plan.buffers)
+            ++counts[{buffer.bytes, buffer.bufferUsage}];
+        for (const auto& [key, count] : counts)
+            buffers[key] = std::max(buffers[key], count);
+    }
+
+    [[nodiscard]] uint64_t bytes() const {
+        uint64_t sum = blockBytes;
+        for (const auto& [key, count] : buffers)
+            sum += key.first * count;
+        return sum;
+    }
+
+    using Key = std::pair<VkDeviceSize, VkBufferUsageFlags>;
+    VkDeviceSize blockBytes = 0;       ///< of images
+    std::map<Key, uint32_t> buffers{}; ///< how many of the size and usage
+};
+
 core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
+    SHUTTER_TRY(checkLens(plan));
     HostPlan small = plan;
     small.settings = complete(plan.settings);
     small.width = small.height = kWarmUpPixels;
@@ -138,12 +179,15 @@ core::Status EmbeddedMotionBlur::recordAll(
     DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot
 ) {
     View view(*mDevice);
-    // Without a frame before and with one, with few movers and with all that may come.
+    const uint32_t plannedRows = dryRun.inputs.motion.rowCount;
+    // Without a frame before and with one; with few rows, with those planned, which may be more
+    // than a tile's list holds, and with all that may come.
     for (uint32_t i = 0; i < 4; ++i) {
         const DroppedCommands dropped(mHost.device, mHost.queueFamily);
         graph::Graph graph;
+        dryRun.inputs.motion.rowCount = i < 2 ? std::min(plannedRows, 1u) : plannedRows;
         Frame frame{0, slot, graph, dryRun.inputs, settings};
-        frame.hasAll = i >= 2;
+        frame.hasAll = i == 3;
         SHUTTER_TRY(record(frame, view, dropped.commands));
         dryRun.moveCamera();
     }
@@ -222,32 +266,43 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
     const MotionBlurSettings settings = complete(plan.settings);
     SHUTTER_TRY(checkInputs(dryRun.inputs, settings, host));
     Slot slot(*mDevice, 0);
-    View view(*mDevice);
-    uint64_t transients = 0;
-    uint64_t slotBytes = 0;
-    const bool keeps = settings.method->readsInstantMotions && settings.history && !plan.lendsLast;
-    // The second frame has one before it.
-    for (uint32_t i = 0; i < 2; ++i) {
-        if (keeps)
-            view.history.fillPlaceholders({plan.width, plan.height});
-        graph::Graph graph;
-        Frame frame{0, slot, graph, dryRun.inputs, settings, false, true, true};
-        declare(frame, view);
-        const auto compiled = graph::compile(graph, slot.pool.requirementFunction());
-        if (!compiled)
-            return compiled.error();
-        transients = compiled.value().blockBytes;
-        for (const graph::Placement& buffer : compiled.value().buffers)
-            transients += buffer.bytes;
-        dryRun.moveCamera();
+    Transients held;
+    SHUTTER_TRY(addTransients(dryRun, settings, slot, held));
+    if (plan.hasLens) {
+        dryRun.inputs.motion.lens = {}; // a host may close it, and then has other buffers
+        SHUTTER_TRY(addTransients(dryRun, settings, slot, held));
     }
+    uint64_t slotBytes = 0;
     for (const gpu::Buffer* buffer : {&slot.instants, &slot.convention})
         slotBytes += buffer->bytes();
     const uint64_t constant = mDevice->living().memoryBytes - slotBytes;
     const uint64_t pixels = uint64_t(plan.width) * plan.height;
     constexpr uint64_t kHistoryBytesPerPixel = 32; // two rasters of half floats and surfaces
-    return constant + mHost.framesInFlight * (transients + slotBytes) +
-           (keeps ? plan.viewCount * pixels * kHistoryBytesPerPixel : 0);
+    return constant + mHost.framesInFlight * (held.bytes() + slotBytes) +
+           (keepsHistory(dryRun.inputs, settings) ? plan.viewCount * pixels * kHistoryBytesPerPixel
+                                                  : 0);
+}
+
+core::Status EmbeddedMotionBlur::addTransients(
+    DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot, Transients& held
+) {
+    View view(*mDevice);
+    graph::Plan plan;
+    // The second frame has one before it.
+    for (uint32_t i = 0; i < 2; ++i) {
+        if (keepsHistory(dryRun.inputs, settings))
+            view.history.fillPlaceholders({dryRun.inputs.width, dryRun.inputs.height});
+        graph::Graph graph;
+        Frame frame{0, slot, graph, dryRun.inputs, settings, false, true, true};
+        declare(frame, view);
+        auto compiled = graph::compile(graph, slot.pool.requirementFunction());
+        if (!compiled)
+            return compiled.error();
+        plan = std::move(compiled).value();
+        dryRun.moveCamera();
+    }
+    held.add(plan);
+    return {};
 }
 
 } // namespace shutter::motion_blur

@@ -147,6 +147,11 @@ class EmbeddedMotionBlur {
     core::Status recordAll(DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot);
     core::Status makePipelines(const HostPlan& plan);
     [[nodiscard]] core::Result<uint64_t> estimate(const HostPlan& plan);
+    struct Transients;
+    /// Adds those of a frame whose previous frame is known.
+    core::Status addTransients(
+        DryRunInputs& dryRun, const MotionBlurSettings& settings, Slot& slot, Transients& held
+    );
 
     mutable OneThread mThread;
     HostDevice mHost;

@@ -23,7 +23,7 @@ void fillPlaceholderMotion(const HostPlan& plan, DryRunInputs& dryRun) {
     const glm::dmat4 unit(1.0);
     glm::dmat4 moved(1.0);
     moved[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
-    dryRun.keys = {{0.0, unit, clipFromView}, {1.0, unit, clipFromView}};
+    dryRun.keys = {{0.0, unit, clipFromView}, {1.0, moved, clipFromView}};
     dryRun.matrices = {unit, moved};
     dryRun.movers.clear();
     for (uint32_t row = 0; row < std::min(plan.moverCount, plan.rowCount); ++row)
