@@ -13,6 +13,11 @@ SHUTTER_CONST uint kPointTilePx = 4u;
 SHUTTER_CONST uint kPointRegionPx = kPointTilePx * kGroupSize;
 /// Maximum number of points of a region, which bounds the discs that a pixel may lie in.
 SHUTTER_CONST uint kMaxRegionPoints = 8u;
+/// Work groups in a row of the dispatch over listed regions: devices may allow no more than 65,535
+/// along an axis.
+SHUTTER_CONST uint kRegionRow = 1024u;
+/// Luminance by which a point exceeds what is around it.
+SHUTTER_CONST float kMinPointLight = 1.0f;
 /// Alpha of a pixel whose point was taken out of the layer.
 SHUTTER_CONST float kTakenOutAlpha = -1.0f;
 
@@ -31,6 +36,11 @@ struct BrightPoint {
 /// Head of the buffer of counts; the number of points of each region follows.
 struct PointHeader {
     uint reachPx; // greatest distance of a disc's bounds from its point
+};
+
+/// Head of the list of regions that hold a pixel of more than kMinPointLight; their indices follow.
+struct RegionHeader {
+    uint count;
 };
 
 SHUTTER_SHADER_END

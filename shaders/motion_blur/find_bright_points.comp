@@ -25,11 +25,13 @@ layout(binding = 3, scalar) buffer Counts {
 };
 layout(binding = 4, scalar) writeonly buffer Points { BrightPoint uPoints[]; };
 layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments; };
+layout(binding = 6, scalar) readonly buffer Regions {
+    RegionHeader uRegionHeader;
+    uint uRegions[];
+};
 
 const uint kThreads = kGroupSize * kGroupSize;
 const uint kTilePixels = kPointTilePx * kPointTilePx;
-/// Luminance by which a point exceeds what is around it.
-const float kMinLight = 1.0f;
 /// Radius of the circle of confusion below which samples lie close enough, pixels.
 const float kMinRadiusPx = 3.0f;
 /// Maximum of a region's points times the square of their radius, square pixels. A pixel then lies in some
@@ -98,7 +100,7 @@ Bright findBright(ivec2 pixel) {
     if (!isInPicture(pixel)) return none;
     vec3 color = fetchColor(pixel);
     float own = luminance(color);
-    if (!(own > kMinLight) || !isFiniteColor(color)) return none;
+    if (!(own > kMinPointLight) || !isFiniteColor(color)) return none;
     uvec2 surface = textureLod(uSurface, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).xy;
     uint key = keyOf(surface);
     float along = key == kSkyKey ? 0.0f : 1.0f / max(uintBitsToFloat(surface.x), kMinDepth);
@@ -108,7 +110,7 @@ Bright findBright(ivec2 pixel) {
     vec3 around;
     if (!findAround(pixel, own, clamp(0.5f * abs(radius), kMinAroundPx, kMaxAroundPx), around)) return none;
     vec3 rest = min(max(around, vec3(0.0f)), color);
-    if (!(luminance(color - rest) > kMinLight)) return none;
+    if (!(luminance(color - rest) > kMinPointLight)) return none;
     // Samples of the pixel that another surface covers do not show it.
     float share = 1.0f - 0.25f * float(bitCount(otherSamplesOf(surface)));
     return Bright(share * (color - rest), rest, key, along, radius);
@@ -120,11 +122,22 @@ bool isSamePoint(Bright a, Bright b) {
 
 ivec2 pixelOf(ivec2 corner, uint i) { return corner + ivec2(i % kPointTilePx, i / kPointTilePx); }
 
-/// The strongest of a square's pixels. \return whether there is one
-bool findStrongest(ivec2 corner, out Bright strongest) {
-    float best = 0.0f;
+/// The pixels of a square whose luminance may be a point's, one bit each: few squares have any.
+uint findCandidates(ivec2 corner) {
+    uint candidates = 0u;
     for (uint i = 0u; i < kTilePixels; ++i) {
-        Bright bright = findBright(pixelOf(corner, i));
+        // What lies beyond the picture's border repeats it, and is no point.
+        bool isBright = luminance(fetchColor(pixelOf(corner, i))) > kMinPointLight;
+        candidates |= isBright ? 1u << i : 0u;
+    }
+    return candidates;
+}
+
+/// The strongest of a square's candidates. \return whether there is one
+bool findStrongest(ivec2 corner, uint candidates, out Bright strongest) {
+    float best = 0.0f;
+    for (uint rest = candidates; rest != 0u; rest &= rest - 1u) {
+        Bright bright = findBright(pixelOf(corner, uint(findLSB(rest))));
         float strength = luminance(bright.light);
         if (!(strength > best)) continue;
         best = strength;
@@ -157,7 +170,9 @@ bool boundDisc(inout BrightPoint point, Aperture aperture) {
 }
 
 /// \return whether the square has a point that a disc suits
-bool makePoint(ivec2 corner, Bright strongest, Aperture aperture, out BrightPoint point) {
+bool makePoint(
+    ivec2 corner, uint candidates, Bright strongest, Aperture aperture, out BrightPoint point
+) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     point.along = strongest.along;
     point.mover = findMover(motions.value.raster, strongest.key);
@@ -165,8 +180,8 @@ bool makePoint(ivec2 corner, Bright strongest, Aperture aperture, out BrightPoin
     point.light = vec3(0.0f);
     vec3 moments = vec3(0.0f);
     float weights = 0.0f;
-    for (uint i = 0u; i < kTilePixels; ++i) {
-        ivec2 pixel = pixelOf(corner, i);
+    for (uint rest = candidates; rest != 0u; rest &= rest - 1u) {
+        ivec2 pixel = pixelOf(corner, uint(findLSB(rest)));
         Bright bright = findBright(pixel);
         if (bright.light == vec3(0.0f) || !isSamePoint(bright, strongest)) continue;
         vec2 from = vec2(pixel - corner) + 0.5f;
@@ -184,9 +199,9 @@ bool makePoint(ivec2 corner, Bright strongest, Aperture aperture, out BrightPoin
 }
 
 /// Replaces the pixels of the point by what is around them.
-void takeOut(ivec2 corner, Bright strongest) {
-    for (uint i = 0u; i < kTilePixels; ++i) {
-        ivec2 pixel = pixelOf(corner, i);
+void takeOut(ivec2 corner, uint candidates, Bright strongest) {
+    for (uint rest = candidates; rest != 0u; rest &= rest - 1u) {
+        ivec2 pixel = pixelOf(corner, uint(findLSB(rest)));
         Bright bright = findBright(pixel);
         if (bright.light == vec3(0.0f) || !isSamePoint(bright, strongest)) continue;
         imageStore(uWithout, pixel, vec4(bright.rest, kTakenOutAlpha));
@@ -194,13 +209,18 @@ void takeOut(ivec2 corner, Bright strongest) {
 }
 
 void main() {
-    uvec2 regions = countRegions(params.sizePx);
-    uint region = gl_WorkGroupID.y * regions.x + gl_WorkGroupID.x;
-    ivec2 corner = ivec2(gl_GlobalInvocationID.xy * kPointTilePx);
+    uint listed = gl_WorkGroupID.y * kRegionRow + gl_WorkGroupID.x;
+    if (listed >= uRegionHeader.count) return;
+    uint region = uRegions[listed];
+    uint across = countRegions(params.sizePx).x;
+    uvec2 square = uvec2(region % across, region / across) * kGroupSize + gl_LocalInvocationID.xy;
+    ivec2 corner = ivec2(square * kPointTilePx);
     Aperture aperture = apertureOf(InstantMotionsRef(method.motions));
     Bright strongest;
     BrightPoint point;
-    bool has_ = findStrongest(corner, strongest) && makePoint(corner, strongest, aperture, point);
+    uint candidates = findCandidates(corner);
+    bool has_ = findStrongest(corner, candidates, strongest) &&
+                makePoint(corner, candidates, strongest, aperture, point);
     float strength = has_ ? luminance(point.light) : 0.0f;
     sStrengths[gl_LocalInvocationIndex] = strength;
     barrier();
@@ -223,7 +243,7 @@ void main() {
         return;
     }
     uPoints[region * kMaxRegionPoints + rank] = point;
-    takeOut(corner, strongest);
+    takeOut(corner, candidates, strongest);
     vec2 reach = max(point.at - point.low, point.high - point.at);
     atomicMax(uHeader.reachPx, uint(ceil(max(reach.x, reach.y))));
     uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;

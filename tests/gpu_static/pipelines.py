@@ -37,7 +37,8 @@ VARIANTS = (
 # What takes the time of a frame. Each of these is pinned, in all its variants.
 HOT = (
     "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "deform",
-    "draw bright points", "edge", "filter lens", "find block samples", "find bright points", "find parts",
+    "draw bright points", "edge", "filter lens", "find block samples", "find bright points",
+    "find bright regions", "find parts",
     "find parts, last frame", "find parts, second raster", "fit planes", "gather", "gather and composite",
     "gather uniform", "guertin2014", "instant surfaces", "jimenez2014", "list candidates",
     "list candidates, last frame", "list candidates, second raster", "list crowds", "mcguire2012",

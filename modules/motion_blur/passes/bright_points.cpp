@@ -2,6 +2,7 @@
 #include "modules/motion_blur/passes/bright_points.h"
 
 #include "spirv/motion_blur/find_bright_points.comp.h"
+#include "spirv/motion_blur/find_bright_regions.comp.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
 #include "shaders/motion_blur/bright_points_shared.h"
@@ -45,13 +46,20 @@ graph::ImageHandle addCopy(graph::Graph& graph, graph::ImageHandle color) {
 } // namespace
 
 BrightPoints::BrightPoints(gpu::Device& device)
-    : mSampler(device.nearestSampler()),
-      mPipeline(
+    : mSampler(device.nearestSampler()), mRegions(
+                                             device,
+                                             describePass(
+                                                 "find bright regions",
+                                                 motion_blur_find_bright_regions_comp,
+                                                 {kSampled, kBuffer, kBuffer, kBuffer}
+                                             )
+                                         ),
+      mPoints(
           device,
           describePass(
               "find bright points",
               motion_blur_find_bright_points_comp,
-              {kSampled, kSampled, kStorage, kBuffer, kBuffer, kBuffer}
+              {kSampled, kSampled, kStorage, kBuffer, kBuffer, kBuffer, kBuffer}
           )
       ) {}
 
@@ -69,20 +77,69 @@ BrightPoints::create(graph::Graph& graph, const PassParams& params, Clears& clea
         ),
         graph.createBuffer(
             "bright point arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
+        ),
+        graph.createBuffer(
+            "bright regions",
+            {sizeof(shader::RegionHeader) + regions * sizeof(uint32_t), kListUsage}
+        ),
+        graph.createBuffer(
+            "bright region arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
         )};
-    clears.addHead(buffers.counts, sizeof(shader::PointHeader));
-    clears.addArguments(buffers.arguments, 1);
+    clears.add(buffers.counts, 0);
+    clears.addHead(buffers.regions, sizeof(shader::RegionHeader));
+    for (const graph::BufferHandle arguments : {buffers.arguments, buffers.search})
+        clears.addArguments(arguments, 1);
     return buffers;
+}
+
+BrightPointBuffers BrightPoints::getCleared(const BrightPointBuffers& made, const Clears& clears) {
+    return {
+        clears.get(made.counts),
+        made.points,
+        clears.get(made.arguments),
+        clears.get(made.regions),
+        clears.get(made.search)};
+}
+
+BrightPointBuffers BrightPoints::addRegions(
+    graph::Graph& graph,
+    graph::ImageHandle color,
+    const BrightPointBuffers& buffers,
+    const PassParams& params
+) const {
+    return graph.addPass<BrightPointBuffers>(
+        "find bright regions",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, BrightPointBuffers& data) {
+            builder.read(color, Access::SampledCompute);
+            data = buffers;
+            data.counts = builder.write(buffers.counts, Access::StorageWrite);
+            data.regions = builder.write(buffers.regions, Access::StorageWrite);
+            data.search = builder.write(buffers.search, Access::StorageWrite);
+        },
+        [this, color, params](const BrightPointBuffers& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings;
+            bindings.sampled(resources.view(color), mSampler)
+                .buffer(resources.buffer(data.counts))
+                .buffer(resources.buffer(data.regions))
+                .buffer(resources.buffer(data.search));
+            const glm::uvec2 threads =
+                (params.sizePx + shader::kPointTilePx - 1u) / shader::kPointTilePx;
+            dispatchPixels(context, mRegions.get(), bindings, params, threads);
+        }
+    );
 }
 
 BrightPointOutputs BrightPoints::add(
     graph::Graph& graph,
     graph::ImageHandle color,
     const SurfaceLayer& raster,
-    const BrightPointBuffers& buffers,
+    const BrightPointBuffers& cleared,
     const PassParams& params
 ) const {
     const graph::ImageHandle copy = addCopy(graph, color);
+    const BrightPointBuffers buffers = addRegions(graph, raster.color, cleared, params);
     return graph.addPass<BrightPointOutputs>(
         "find bright points",
         graph::PassKind::Compute,
@@ -93,7 +150,9 @@ BrightPointOutputs BrightPoints::add(
             data.buffers = {
                 builder.write(buffers.counts, Access::StorageWrite),
                 builder.write(buffers.points, Access::StorageWrite),
-                builder.write(buffers.arguments, Access::StorageWrite)};
+                builder.write(buffers.arguments, Access::StorageWrite),
+                builder.read(buffers.regions, Access::StorageRead),
+                builder.read(buffers.search, Access::IndirectRead)};
         },
         [this, raster, params](const BrightPointOutputs& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
@@ -103,10 +162,9 @@ BrightPointOutputs BrightPoints::add(
                 .storage(resources.image(data.color))
                 .buffer(resources.buffer(data.buffers.counts))
                 .buffer(resources.buffer(data.buffers.points))
-                .buffer(resources.buffer(data.buffers.arguments));
-            const glm::uvec2 threads =
-                (params.sizePx + shader::kPointTilePx - 1u) / shader::kPointTilePx;
-            dispatchPixels(context, mPipeline.get(), bindings, params, threads);
+                .buffer(resources.buffer(data.buffers.arguments))
+                .buffer(resources.buffer(data.buffers.regions));
+            dispatchList(context, mPoints.get(), bindings, params, data.buffers.search, 0);
         }
     );
 }

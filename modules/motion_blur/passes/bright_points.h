@@ -16,6 +16,8 @@ struct BrightPointBuffers {
     graph::BufferHandle counts;    ///< shader::PointHeader, and the number of points by region
     graph::BufferHandle points;    ///< shader::BrightPoint, kMaxRegionPoints for each region
     graph::BufferHandle arguments; ///< of a dispatch over all blocks; of none without any point
+    graph::BufferHandle regions;   ///< shader::RegionHeader, and indices of regions to search
+    graph::BufferHandle search;    ///< arguments of a dispatch over these regions
 };
 
 struct BrightPointOutputs {
@@ -31,20 +33,33 @@ class BrightPoints {
     [[nodiscard]] static BrightPointBuffers
     create(graph::Graph& graph, const PassParams& params, Clears& clears);
 
+    /// The same after the clearing pass is declared.
+    [[nodiscard]] static BrightPointBuffers
+    getCleared(const BrightPointBuffers& made, const Clears& clears);
+
     /// \param color of this frame's raster, to be copied
     /// \param raster this frame's, of the same colour
-    /// \param buffers of create(), cleared
+    /// \param cleared of getCleared()
     /// \param params with shader::ResolvedParams of a frame with a lens
     [[nodiscard]] BrightPointOutputs
     add(graph::Graph& graph,
         graph::ImageHandle color,
         const SurfaceLayer& raster,
-        const BrightPointBuffers& buffers,
+        const BrightPointBuffers& cleared,
         const PassParams& params) const;
 
   private:
+    /// Lists the regions to search.
+    [[nodiscard]] BrightPointBuffers addRegions(
+        graph::Graph& graph,
+        graph::ImageHandle color,
+        const BrightPointBuffers& buffers,
+        const PassParams& params
+    ) const;
+
     VkSampler mSampler;
-    gpu::LazyPipeline mPipeline;
+    gpu::LazyPipeline mRegions;
+    gpu::LazyPipeline mPoints;
 };
 
 } // namespace shutter::motion_blur

@@ -284,10 +284,7 @@ ResolvePassOutputs ResolvePass::add(
     );
     clears.declare(graph);
     if (takesPoints) {
-        const BrightPointBuffers cleared{
-            clears.get(initial.points.counts),
-            initial.points.points,
-            clears.get(initial.points.arguments)};
+        const BrightPointBuffers cleared = BrightPoints::getCleared(initial.points, clears);
         const BrightPointOutputs taken = mPoints.add(graph, inputs.color, raster, cleared, params);
         search.layers.raster.color = taken.color;
         outputs.points = taken.buffers;
