@@ -7,7 +7,7 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/prepare_shared.h"
 
-/// Colours that half floats cannot hold become ones that they can; normals have signs.
+/// Colours that half floats cannot hold become ones that they can, and alpha 0 or more; normals have signs.
 layout(constant_id = 0) const bool kIsColor = true;
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
@@ -23,6 +23,7 @@ void main() {
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
     vec2 place = vec2(pixel) + 0.5f;
     vec4 value = textureLod(uImage, params.area.origin + place * params.area.perPixel, 0.0f);
-    if (kIsColor) value.rgb = storableColor(value.rgb);
+    // A negative alpha is a radius of lens_filter.comp; no NaN passes.
+    if (kIsColor) value = vec4(storableColor(value.rgb), value.a > 0.0f ? value.a : 0.0f);
     imageStore(uPicture, ivec2(pixel), value);
 }

@@ -159,6 +159,38 @@ TEST_F(EmbeddedLens, AClosedLensChangesNeitherBitsNorPasses) {
     EXPECT_EQ(passesOfNone.find("lens"), std::string::npos);
 }
 
+/// The filter behind the search marks its radii by negative alphas.
+TEST_F(EmbeddedLens, AnyAlphaOfTheHostsColourGivesTheSamePicture) {
+    constexpr VkExtent2D kSize{48, 32};
+    const auto drawWith = [&](float alpha) {
+        std::vector<uint64_t> colors;
+        std::vector<glm::vec4> motions; // half is in focus, half far behind it
+        for (uint32_t i = 0; i < kSize.width * kSize.height; ++i) {
+            const uint32_t x = i % kSize.width;
+            const float value = (i * 7 + i / kSize.width * 3) % 11 < 5 ? 0.2f : 0.9f;
+            colors.push_back(test::packHalf({value, 0.5f * value, 0.3f, alpha}));
+            motions.emplace_back(0.0f, 0.0f, x < kSize.width / 2 ? 5.0f : 50.0f, 0.0f);
+        }
+        mTexels.clear();
+        HostInputs in;
+        in.width = kSize.width;
+        in.height = kSize.height;
+        in.color = makeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, kSize, colors).describe();
+        in.motionDepth = makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kSize, motions).describe();
+        const motion_blur::HostCameraKey key{
+            1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, 1.5, 0.1)};
+        in.motion.keys = {&key, 1};
+        in.motion.lens = {.radius = 0.5, .focusDistance = 5.0};
+        image::Image picture = EmbeddedTest::draw(in, settingsOf("resolved", kInstants));
+        for (size_t i = 3; i < picture.pixels.size(); i += 4)
+            picture.pixels[i] = 1.0f;
+        return picture;
+    };
+    const image::Image opaque = drawWith(1.0f);
+    for (const float alpha : {0.0f, -1.0f, -1.5f, -60000.0f, float(kNan)})
+        EXPECT_TRUE(test::sameBits(drawWith(alpha), opaque)) << alpha;
+}
+
 TEST_F(EmbeddedLens, LensesAtTheEndsOfTheirRangeGiveFinitePictures) {
     start(true);
     for (const double radius : {1e-300, 1e-9, 1000.0})

@@ -207,10 +207,12 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     frame.images.color = frame.import(device, "color", inputs.color, colorRule(inputs));
     frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
     const bool isNativeColor = isNativeImage(inputs.color, kHostColorFormat, picture);
+    // A host's alpha has any meaning, and the lens's filter reads radii there.
+    const bool isRead = isNativeColor && (inputs.isOff || !seesThroughLens(inputs, frame.settings));
     effectInputs.color =
-        isNativeColor ? frame.images.color
-                      : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
-    effectInputs.colorIsWritable = !isNativeColor || !inputs.output.image;
+        isRead ? frame.images.color
+               : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
+    effectInputs.colorIsWritable = !isRead || !inputs.output.image;
     if (inputs.output.image && isNativeImage(inputs.output, kHostColorFormat, picture))
         effectInputs.target = frame.output;
     else if (!inputs.output.image && isNativeColor)
