@@ -295,12 +295,19 @@ void addRails(GltfWriter& writer) {
 }
 
 /// A camera at `position`, facing `target`.
-void addCamera(GltfWriter& writer, const char* name, vec3 position, vec3 target, float yFov) {
+void addCamera(
+    GltfWriter& writer,
+    const char* name,
+    vec3 position,
+    vec3 target,
+    float yFov,
+    const nlohmann::json& lens = {}
+) {
     writer.addNode(
         {.name = name,
          .translation = position,
          .rotation = rotationTowards(target - position),
-         .camera = writer.addCamera(name, yFov, 0.05f)}
+         .camera = writer.addCamera(name, yFov, 0.05f, lens)}
     );
 }
 
@@ -346,7 +353,9 @@ GltfWriter buildGalleryScene() {
          .camera = writer.addCamera("shooter", 0.80f, 0.05f)}
     );
     addLauncher(writer, shooter);
-    addCamera(writer, "side", {-5.8f, 2.5f, -1.6f}, {0.5f, 1.5f, -7.0f}, 0.80f);
+    // The runner crosses its view from near to far, and stays in focus.
+    const nlohmann::json lens = {{"fStop", 0.95}, {"sensorHeight", 0.056}, {"focusNode", "runner"}};
+    addCamera(writer, "side", {-5.8f, 2.5f, -1.6f}, {0.5f, 1.5f, -7.0f}, 0.80f, lens);
     addCamera(writer, "high", {4.6f, 4.2f, 0.8f}, {-0.6f, 1.4f, -7.6f}, 0.70f);
     addDemoSun(writer, {0.35f, -0.75f, -0.60f});
     addBooth(writer);

@@ -165,6 +165,13 @@ class Session(PlayCase):
         self.assertIn("--fstop changes nothing: gather draws pinholes", warn("gather", "--fstop", "2"))
         self.assertNotIn("changes nothing", warn("resolved", "--fstop", "2", "--focus", "3"))
         self.assertNotIn("changes nothing", warn("gather"))
+        self.assertIn("--focus-entity changes nothing: the camera is a pinhole",
+                      warn("resolved", "--focus-entity", "runner"))
+        self.assertNotIn("changes nothing", warn("resolved", "--fstop", "2", "--focus-entity", "runner"))
+        unknown = self.run_shutter(["gallery", "--frames", "1", "--assets", ASSETS, "--settings", "settings.json",
+                                    "--focus-entity", "nobody"], display=False)
+        self.assertEqual(unknown.returncode, 1)
+        self.assertIn("gallery: --focus-entity 'nobody' is the name of no node", unknown.stderr)
 
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")

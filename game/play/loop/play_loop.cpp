@@ -383,8 +383,9 @@ void PlayLoop::turnPhotoMode(bool on) {
 void PlayLoop::overrideLens() {
     ecs::Registry& registry = mStage->world().registry;
     static const scene::LensOverride kNone;
-    if (!core::areEqual(scene::listOverrideRows(), mSettings.lens, kNone))
-        registry.add(camera(), mSettings.lens);
+    const scene::LensOverride lens = makeLens(mSettings);
+    if (!core::areEqual(scene::listOverrideRows(), lens, kNone))
+        registry.add(camera(), lens);
     else
         registry.remove<scene::LensOverride>(camera());
 }
@@ -409,7 +410,7 @@ std::string PlayLoop::explainPinhole() const {
     const scene::World& world = mStage->world();
     if (world.registry.get<scene::Camera>(camera()).kind == scene::CameraKind::Orthographic)
         return "an orthographic camera has no lens";
-    if (mSettings.lens.blurScale == 0.0)
+    if (makeLens(mSettings).blurScale == 0.0)
         return "depth of field is off (panel, F1)";
     if (!scene::hasLens(world, camera()) && mSettings.lens.fStop == 0.0)
         return "the camera is a pinhole: choose an F-number (panel, F1)";
@@ -423,13 +424,15 @@ std::string PlayLoop::explainPinhole() const {
 
 void PlayLoop::warnOfPinhole() {
     const bool opens = mOptions.fStop && *mOptions.fStop != 0.0;
-    if (!opens && !mOptions.focusDistance)
+    const bool focuses = mOptions.focusDistance || !mOptions.shot.focusEntity.empty();
+    if (!opens && !focuses)
         return;
     const std::string why = explainPinhole();
     if (why.empty())
         return;
-    const std::string warning =
-        fmt::format("{} changes nothing: {}", opens ? "--fstop" : "--focus", why);
+    const std::string warning = fmt::format(
+        "{} changes nothing: {}", opens ? "--fstop" : nameFocusOption(mOptions.shot), why
+    );
     core::logWarning("{}", warning);
     mMessage += (mMessage.empty() ? "" : "; ") + warning;
 }

@@ -28,13 +28,14 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
     });
     if (options.fStop) {
         settings.lens.fStop = *options.fStop;
-        if (*options.fStop == 0.0)
-            settings.lens.blurScale = 0.0;
-        else if (settings.lens.blurScale == 0.0)
+        settings.depthOfField = *options.fStop != 0.0;
+        if (settings.depthOfField && settings.lens.blurScale == 0.0)
             settings.lens.blurScale = scene::LensOverride().blurScale;
     }
     if (options.focusDistance)
         settings.lens.focusDistance = *options.focusDistance;
+    else if (!options.shot.focusEntity.empty())
+        settings.lens.focusDistance = 0.0; // as the cameras do
     if (options.environment)
         settings.environment = *options.environment;
 }

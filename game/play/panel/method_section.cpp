@@ -245,6 +245,7 @@ void drawLensSection(const PanelFacts& facts, PlaySettings& settings, PanelReque
     const std::vector<const MethodInfo*> shown = listShown(settings);
     if (std::none_of(shown.begin(), shown.end(), [](const auto* m) { return m->hasLens; }))
         ImGui::TextDisabled("The method on the screen draws pinholes.");
+    drawPlayRows("depth of field", settings, std::vector<std::string_view>{"depthOfField"});
     drawRows("lens", scene::listOverrideRows(), settings.lens);
     ButtonRow buttons;
     requests.focusMiddle = buttons.add(

@@ -56,12 +56,13 @@ struct PresetEffects {
     AntiAliasing antiAliasing;
     extract::ShadowMode shadows;
     float bloomShare;
+    bool depthOfField;
 };
 
 constexpr std::array kPresetEffects = {
-    PresetEffects{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f},
-    PresetEffects{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
-    PresetEffects{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
+    PresetEffects{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f, false},
+    PresetEffects{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f, true},
+    PresetEffects{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f, true},
 };
 
 /// Null: the preset is about the blur alone.
@@ -77,7 +78,8 @@ const PresetEffects* findPresetEffects(const Preset& preset) {
 bool isSeen(const PresetEffects* effects, const PlaySettings& settings) {
     return !effects || (settings.picture.antiAliasing == effects->antiAliasing &&
                         settings.picture.shadows.mode == effects->shadows && settings.environment &&
-                        settings.picture.bloom.share == effects->bloomShare);
+                        settings.picture.bloom.share == effects->bloomShare &&
+                        settings.depthOfField == effects->depthOfField);
 }
 
 } // namespace
@@ -93,6 +95,7 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     settings.picture.shadows.mode = effects->shadows;
     settings.environment = true;
     settings.picture.bloom.share = effects->bloomShare;
+    settings.depthOfField = effects->depthOfField;
 }
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
@@ -122,6 +125,13 @@ scene::CameraShutter makeShutter(const PlaySettings& settings) {
     return shutter;
 }
 
+scene::LensOverride makeLens(const PlaySettings& settings) {
+    scene::LensOverride lens = settings.lens;
+    if (!settings.depthOfField)
+        lens.blurScale = 0.0;
+    return lens;
+}
+
 motion_blur::MotionBlurSettings
 makeBlurSettings(const PlaySettings& settings, const MethodInfo& method) {
     SHUTTER_CHECK(method.blur, "{} is no motion blur", method.name);
@@ -147,6 +157,12 @@ core::SettingRows<PlaySettings> listPlayRows() {
          "Scales the blur that the camera's own motion causes, for players whom it makes sick. At "
          "0 only movers blur.",
          "Camera blur"},
+        {"depthOfField",
+         &S::depthOfField,
+         "",
+         {},
+         "Blur of what is out of focus, where the camera has a lens. Off is faster.",
+         "Depth of field"},
         {"split",
          &S::split,
          "",

@@ -35,6 +35,7 @@ struct PlaySettings {
         blur{}; ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
     scene::CameraShutter shutter = makePlayShutter();
+    bool depthOfField = true; ///< false: cameras are pinholes, whatever `lens` is
     /// In place of the camera's own lens, for methods that have one.
     scene::LensOverride lens;
     /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
@@ -81,6 +82,9 @@ savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings
 
 /// The shutter as the camera gets it: reduced motion applied.
 [[nodiscard]] scene::CameraShutter makeShutter(const PlaySettings& settings);
+
+/// The lens as the camera gets it: closed without depth of field.
+[[nodiscard]] scene::LensOverride makeLens(const PlaySettings& settings);
 
 /// Longest name of an intermediate, bytes.
 inline constexpr size_t kMaxViewBytes = 64;

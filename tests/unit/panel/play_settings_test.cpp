@@ -276,6 +276,7 @@ TEST(Presets, PresetsSetTheOtherEffectsUnlessTheyCompareTheBlur) {
     EXPECT_EQ(settings.picture.antiAliasing, game::AntiAliasing::None);
     EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Blurred);
     EXPECT_EQ(settings.picture.bloom.share, 0.0f);
+    EXPECT_FALSE(settings.depthOfField);
     settings.environment = false;
     settings.picture.shadows.mode = extract::ShadowMode::Sharp;
     for (const char* name : {"off", "paper"}) {
@@ -286,6 +287,18 @@ TEST(Presets, PresetsSetTheOtherEffectsUnlessTheyCompareTheBlur) {
     apply("balanced");
     // What a new player has.
     EXPECT_EQ(game::formatPlaySettings(settings), game::formatPlaySettings(PlaySettings()));
+}
+
+TEST(Presets, DepthOfFieldIsThePresetsAndItsScaleThePlayers) {
+    PlaySettings settings;
+    settings.lens = {.fStop = 2.0, .blurScale = 0.5};
+    for (const auto& [name, blurScale] :
+         {std::pair{"performance", 0.0}, {"off", 0.0}, {"quality", 0.5}, {"paper", 0.5}}) {
+        game::applyPreset(*game::findPreset(name).value(), settings);
+        EXPECT_EQ(game::makeLens(settings).blurScale, blurScale) << name;
+        EXPECT_EQ(game::makeLens(settings).fStop, 2.0) << name;
+        EXPECT_EQ(settings.lens.blurScale, 0.5) << name;
+    }
 }
 
 TEST(Presets, PresetsAreValidDistinctAndApplied) {

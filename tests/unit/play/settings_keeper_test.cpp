@@ -38,7 +38,14 @@ TEST_F(Keeper, AnOpenFStopTurnsDepthOfFieldOn) {
     EXPECT_EQ(load(R"({"blurScale": 0})", {}).lens.blurScale, 0.0);
     PlayOptions closed;
     closed.fStop = 0.0;
-    EXPECT_EQ(load(R"({"fStop": 2})", closed).lens.blurScale, 0.0);
+    EXPECT_FALSE(load(R"({"fStop": 2})", closed).depthOfField);
+}
+
+TEST_F(Keeper, AnEntityToFocusOnReplacesTheDistanceOfTheSettings) {
+    PlayOptions named;
+    EXPECT_EQ(load(R"({"focusDistance": 3})", named).lens.focusDistance, 3.0);
+    named.shot.focusEntity = "ball";
+    EXPECT_EQ(load(R"({"focusDistance": 3})", named).lens.focusDistance, 0.0);
 }
 
 } // namespace
