@@ -365,6 +365,59 @@ TEST_F(LensLight, AMovingBrightPointLeavesTheLightAndThePlaceOfManyPictures) {
     }
 }
 
+TEST_F(LensLight, ABrightPointBehindANarrowOpeningStaysSamples) {
+    CameraLens lens = kWideOpen;
+    const double depth = 30.0;
+    const auto draw = [&](double squeeze, float radiance) {
+        lens.squeeze = squeeze;
+        SceneBuilder scene = makeStage(lens);
+        addLamp(scene, 2.0, {1.0, 1.0}, depth, radiance);
+        return test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+    };
+    const double radius = computeConfusionRadius(lens, depth);
+    for (const double squeeze : {0.2, 0.9}) {
+        const bool isNarrow = radius * squeeze < 3.0;
+        ASSERT_EQ(isNarrow, squeeze == 0.2) << radius;
+        // Samples are in proportion to the light, of which points are what exceeds 1.
+        const image::Image dim = draw(squeeze, 0.25f);
+        const image::Image bright = draw(squeeze, 32.0f);
+        double brightest = 0.0;
+        double apart = 0.0;
+        for (uint32_t y = 0; y < kHigh; ++y)
+            for (uint32_t x = 0; x < kWide; ++x) {
+                const double value = bright.at(x, y, 1);
+                brightest = std::max(brightest, value);
+                apart = std::max(apart, std::abs(value - 128.0 * dim.at(x, y, 1)));
+            }
+        if (isNarrow)
+            EXPECT_LE(apart, 0.002 * brightest);
+        else
+            EXPECT_GE(apart, 0.2 * brightest);
+    }
+}
+
+/// Else pixels would lie in hundreds of them.
+TEST_F(LensLight, OfARegionsBrightPointsOneAloneMakesALargeDisc) {
+    const CameraLens lens{.fStop = 0.025, .focusDistance = 0.5};
+    const double depth = 30.0;
+    const double radius = computeConfusionRadius(lens, depth);
+    ASSERT_GT(radius, 65.0);
+    const auto findBrightest = [&](int count) {
+        SceneBuilder scene = makeStage(lens);
+        for (int i = 0; i < count; ++i) // within 32 x 32 pixels
+            addLamp(scene, 2.0, {9.0 + 14.0 * i, -19.0}, depth, 40.0f);
+        const image::Image seen = test::renderOnce(device(), scene, makeLensShot("resolved")).color;
+        double brightest = 0.0;
+        for (uint32_t y = 0; y < kHigh; ++y)
+            for (uint32_t x = 0; x < kWide; ++x)
+                brightest = std::max(brightest, double(seen.at(x, y, 1)));
+        return brightest;
+    };
+    const double even = 160.0 / (std::numbers::pi * radius * radius);
+    EXPECT_NEAR(findBrightest(1), even, 0.02 * even);
+    EXPECT_GT(findBrightest(2), 5.0 * even) << "the second one is some samples";
+}
+
 TEST_F(LensLight, BrightPointsBeyondTheMaximumKeepTheirLightAndTheSameBitsInEachRun) {
     constexpr int kAcross = 6;
     const auto draw = [&] {
