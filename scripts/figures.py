@@ -11,6 +11,7 @@ runs of --timed alone: use it where nothing else kept the machine busy. The same
 import argparse
 import json
 import sys
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -25,6 +26,7 @@ SHOWN_METRICS = ("psnr", "linearPsnr", "ssim", "flip", "flicker", "standingFlick
 METRICS_OF_ONE_SHOT = ("ssim",)
 TIMES = {"frame": "frame, ms", "effect": "effect, ms"}
 DECIMALS = {"dB": 2, "": 4}
+MAX_COLUMNS = 120
 
 
 class Refusal(Exception):
@@ -65,6 +67,8 @@ def read_results(folder):
         raise Refusal(f"{file} is of the suite {results.get('suite')}; this script knows {', '.join(SUITES)}")
     if results.get("complete") is not True:
         raise Refusal(f"{file} is incomplete; the same command of shutter bench goes on with it")
+    if "options" not in results:
+        raise Refusal(f"{file} lacks `options`, the command's: its shutter bench was too old to write them")
     return results
 
 
@@ -92,30 +96,14 @@ def describe_pixel(suite, pixel):
     return [f"--pixel {pixel}"] if (pixel == "box") != (suite in SUITES_WITH_EDGES) else []
 
 
-def describe_command(results):
-    """The options of `shutter bench` that its results name."""
-    settings = results["settings"]
-    suite = results["suite"]
-    words = ["shutter bench", "SCENE" if suite == "own" else f"--suite {suite}"]
-    words += describe_pixel(suite, settings["pixel"])
-    smoothings = list(dict.fromkeys(smoothing for _, _, smoothing in list_entries(results)))
-    if smoothings != (["none", "taa", "box"] if suite in SUITES_WITH_EDGES else ["none"]):
-        words.append(f"--aa {','.join(smoothings)}")
-    if (settings["width"], settings["height"]) != (640, 360):
-        words.append(f"--size {settings['width']}x{settings['height']}")
-    frames = {film["frames"] for film in results.get("sequences", [])}
-    if frames and frames != {48}:
-        words.append(f"--frames {frames.pop()}")
-    return " ".join(words)
-
-
 def describe_run(results, is_timed):
     revision, device, machine = results["revision"], results["device"], results["machine"]
     changed = " with uncommitted changes" if revision["dirty"] else ""
     times = f"times on {machine['cores']} cores of {machine['cpu']}" if is_timed else "times left out"
-    return (f"- `{describe_command(results)}`\n"
-            f"  on {results['created'][:10]}, revision {revision['git']}{changed};\n"
-            f"  {device['name']}, {device['driver']}; {times}")
+    conditions = (f"on {results['created'][:10]}, revision {revision['git']}{changed}; "
+                  f"{device['name']}, {device['driver']}; {times}")
+    return "\n  ".join([f"- `{' '.join(['shutter bench', *results['options']])}`",
+                        *textwrap.wrap(conditions, MAX_COLUMNS - 2, break_on_hyphens=False)])
 
 
 def describe_truth(entry):

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -143,6 +144,31 @@ chooseMethods(const BenchArguments& arguments, const Suite& suite) {
 }
 
 } // namespace
+
+std::vector<std::string> listGivenOptions(const CLI::App& command) {
+    constexpr std::string_view kWithoutEffect[] = {
+        "--out", "--rooms", "--restart", "--report-only"};
+    std::vector<std::string> given;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 ||
+            std::ranges::find(kWithoutEffect, name) != std::end(kWithoutEffect))
+            continue;
+        const std::vector<std::string>& values = option->results();
+        const char delimiter = option->get_delimiter();
+        if (option->get_positional())
+            given.push_back(std::filesystem::path(values.front()).filename().string());
+        else if (option->get_items_expected_max() == 0)
+            given.push_back(name);
+        else if (delimiter != '\0')
+            given.push_back(fmt::format("{} {}", name, fmt::join(values, std::string(1, delimiter)))
+            );
+        else
+            for (const std::string& value : values)
+                given.push_back(fmt::format("{} {}", name, value));
+    }
+    return given;
+}
 
 core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
     for (const CLI::Option* option : arguments.shotOptions)

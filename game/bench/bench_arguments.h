@@ -34,6 +34,7 @@ struct BenchArguments {
     uint32_t frames = 48;
     bool restart = false;
     bool reportOnly = false;
+    std::vector<std::string> given; ///< listGivenOptions()
 
     std::vector<CLI::Option*> shotOptions;    ///< which only a scene of one's own has
     const CLI::Option* pixelOption = nullptr; ///< --pixel
@@ -47,6 +48,11 @@ struct BenchTask {
 };
 
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments);
+
+/// The scene's file name and the options of the parsed command as they were given, "--case near",
+/// in the order of its help. Left out is what has no effect on what is measured: --out, --rooms,
+/// --restart and --report-only.
+[[nodiscard]] std::vector<std::string> listGivenOptions(const CLI::App& command);
 
 /// Error: names the option.
 [[nodiscard]] core::Result<BenchTask> interpretBench(const BenchArguments& arguments);

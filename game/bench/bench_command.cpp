@@ -88,6 +88,7 @@ Status measureTask(const BenchArguments& arguments, BenchTask task) {
         return device.error();
     SHUTTER_TRY(makeFolders(arguments));
     RunOptions options;
+    options.given = arguments.given;
     std::signal(SIGINT, stopOnInterrupt);
     if (!task.suite.sequences.empty())
         options.sequence = makeSequenceOptions(arguments, task);
@@ -129,7 +130,10 @@ int runBench(const BenchArguments& arguments) {
 void defineBench(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<BenchArguments>();
     defineBenchOptions(app, *arguments);
-    app.callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
+    app.callback([&app, arguments, &exitStatus] {
+        arguments->given = listGivenOptions(app);
+        exitStatus = runBench(*arguments);
+    });
 }
 
 } // namespace shutter::bench

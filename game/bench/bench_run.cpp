@@ -29,8 +29,8 @@ constexpr const char* kResultsFile = "results.json";
 class BenchRun {
   public:
     BenchRun(gpu::Device& device, const RunOptions& options, const StopQuestion& stop)
-        : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
-          mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
+        : mDevice(device), mGiven(options.given), mSuite(options.suite), mMethods(options.methods),
+          mShot(options.shot), mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
           mAntiAliased(makeAntiAliasedPoints(mMethods)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
           mTimesOnly(mOptions), mSequence(options.sequence) {
@@ -95,6 +95,7 @@ class BenchRun {
 
     void describeRun() {
         mRoot = describeOrigin(mSuite.name, mDevice.info());
+        mRoot["options"] = mGiven;
         mRoot["metrics"] = describeMetrics();
         mRoot["methods"] = describeMethods(mMethods);
         for (const char* name : {"cases", "equalTime", "scaling"})
@@ -168,6 +169,7 @@ class BenchRun {
     }
 
     gpu::Device& mDevice;
+    const std::vector<std::string>& mGiven;
     const Suite& mSuite;
     const std::vector<const game::MethodInfo*>& mMethods;
     const game::ShotOptions& mShot;

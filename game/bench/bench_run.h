@@ -7,6 +7,7 @@
 #include "game/bench/suites/suite.h"
 #include "game/shot/shot_options.h"
 
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -16,6 +17,7 @@ class App;
 namespace shutter::bench {
 
 struct RunOptions {
+    std::vector<std::string> given; ///< the command's options, for results.json
     Suite suite;
     std::vector<const game::MethodInfo*> methods;
     game::ShotOptions shot; ///< options that the suite's cases do not set: size, tone map

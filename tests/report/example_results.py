@@ -2,7 +2,7 @@
 """Synthetic results of each suite for the report's tests: no figure here was measured.
 
 Pictures and figures come from formulas, so that a test knows them and nothing has to be kept. Run
-by hand, `example_results.py SUITE FOLDER` writes results.json and its pictures to look at.
+by hand, `example_results.py SUITE FOLDER` writes results.json and its pictures for inspection.
 """
 
 import json
@@ -321,6 +321,7 @@ def make(suite):
     results = {
         "schema": "shutter-bench", "version": 2, "suite": suite,
         "created": "2026-01-01T00:00:00Z", "complete": suite != "hard",
+        "options": [f"--suite {suite}", f"--size {WIDTH}x{HEIGHT}"],
         "revision": {"git": "abc1234", "dirty": suite == "hard"},
         "machine": {"cpu": "synthetic CPU", "cores": 2, "memoryBytes": 8 << 30,
                     "os": "synthetic OS"},

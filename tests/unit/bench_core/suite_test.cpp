@@ -107,6 +107,32 @@ TEST(Suites, PixelOverridesThatOfASuite) {
     }
 }
 
+TEST(Arguments, GivenOptionsAreListedAsTypedWithoutFoldersAndDefaults) {
+    const auto list = [](const std::string& words) {
+        CLI::App app;
+        BenchArguments arguments;
+        defineBenchOptions(app, arguments);
+        app.parse(words);
+        return listGivenOptions(app);
+    };
+    EXPECT_EQ(
+        list("--out a/b --aa none,box --case near --case joint --suite lens --restart --methods "
+             "sharp,resolved --rooms c --size 64x36 --unlit"),
+        (std::vector<std::string>{
+            "--suite lens",
+            "--methods sharp,resolved",
+            "--case near",
+            "--case joint",
+            "--size 64x36",
+            "--unlit",
+            "--aa none,box"})
+    );
+    EXPECT_EQ(
+        list("a/scene.glb --out b --time 0.5"),
+        (std::vector<std::string>{"scene.glb", "--time 0.5"})
+    );
+}
+
 TEST(Suites, ShotsWhoseRoomIsNotThereAreLeftOut) {
     const test::TempFolder folder;
     Suite none = makeLensSuite();
