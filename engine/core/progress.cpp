@@ -56,6 +56,13 @@ Progress::~Progress() {
     std::fflush(mOutput);
 }
 
+void Progress::startPart(std::string_view part) {
+    if (mEnabled)
+        return;
+    fmt::print(mOutput, "shutter: {} {}; {} % done\n", mLabel, part, 100 * mDone / mTotal);
+    std::fflush(mOutput);
+}
+
 void Progress::advance(uint64_t steps) {
     mDone = std::min(mDone + steps, mTotal);
     if (!mEnabled)

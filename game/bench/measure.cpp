@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 namespace shutter::bench {
 
@@ -44,22 +45,33 @@ class Rounds {
   public:
     Rounds(
         gpu::Device& device,
+        const Case& shot,
         CaseStage& stage,
         const std::vector<SamplePoint>& sweep,
         const MeasureOptions& options,
         core::Progress& progress,
         const StopQuestion& stop
     )
-        : mDevice(device), mStage(stage), mOptions(options), mProgress(progress), mStop(stop) {
+        : mDevice(device), mName(shot.name), mStage(stage), mOptions(options), mProgress(progress),
+          mStop(stop) {
         for (const SamplePoint& point : sweep)
             (isProgressive(point) ? mProgressive : mEntries).push_back({{point}});
+        std::set<const game::MethodInfo*> methods;
+        for (const SamplePoint& point : sweep)
+            methods.insert(point.method);
+        mMethodCount = methods.size();
     }
 
     Status run() {
         for (Entry& entry : mEntries)
-            if (!mStop())
+            if (!mStop()) {
+                announce(entry);
                 SHUTTER_TRY(drawFirst(entry));
+            }
+        if (!mProgressive.empty())
+            announce(mProgressive.front());
         SHUTTER_TRY(drawProgressive());
+        mProgress.startPart(fmt::format("{}: times", mName));
         for (uint32_t round = 0; round < mOptions.repeats; ++round) {
             for (Entry& entry : mEntries)
                 if (!mStop())
@@ -77,6 +89,16 @@ class Rounds {
 
         [[nodiscard]] const SamplePoint& point() const { return drawn.point; }
     };
+
+    /// Names the method whose first sample count this is.
+    void announce(const Entry& entry) {
+        if (entry.point().method == mAnnounced)
+            return;
+        mAnnounced = entry.point().method;
+        mProgress.startPart(fmt::format(
+            "{}: {}, method {} of {}", mName, mAnnounced->name, ++mAnnouncedCount, mMethodCount
+        ));
+    }
 
     Status refuse(Entry& entry, const std::string& reason) {
         entry.isRefused = true;
@@ -216,6 +238,10 @@ class Rounds {
     }
 
     gpu::Device& mDevice;
+    const std::string& mName; ///< the case's
+    size_t mMethodCount = 0;
+    size_t mAnnouncedCount = 0;
+    const game::MethodInfo* mAnnounced = nullptr; ///< last
     CaseStage& mStage;
     const MeasureOptions& mOptions;
     core::Progress& mProgress;
@@ -258,9 +284,11 @@ core::Result<CaseResult> measureCase(
     if (!created)
         return created.error();
     CaseStage& stage = *created.value();
-    if (options.comparePictures)
+    if (options.comparePictures) {
+        progress.startPart(shot.name + ": the truth");
         SHUTTER_TRY(stage.provideTruth());
-    SHUTTER_TRY(Rounds(device, stage, sweep, options, progress, stop).run());
+    }
+    SHUTTER_TRY(Rounds(device, shot, stage, sweep, options, progress, stop).run());
     CaseResult result{
         stage.truthImage(), stage.truthLinear(), stage.truthHash(), stage.journal().records(), {}};
     if (options.comparePictures && !stop()) {

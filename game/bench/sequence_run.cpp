@@ -219,6 +219,13 @@ class SequenceRun {
         );
         for (uint32_t frame = frames.first; frame < frames.end && !mStop(); ++frame) {
             source.advance();
+            mProgress.startPart(fmt::format(
+                "{}{}: frame {} of {}",
+                mFilm.name,
+                camera == SequenceCamera::Standing ? ", camera at rest" : "",
+                frame + 1,
+                frames.end
+            ));
             SHUTTER_TRY(measureFrame(pass, camera, frame, judge));
         }
         return {};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <sstream>
 #include <sys/wait.h>
 
 namespace shutter::cli {
@@ -56,6 +57,19 @@ class BenchCommand : public Cli {
         return all;
     }
 
+    /// Measures without a warning. \return the lines of progress
+    std::vector<std::string> expectMeasured(const Arguments& arguments) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        std::vector<std::string> lines;
+        std::istringstream stream(outcome.err);
+        for (std::string line; std::getline(stream, line); lines.push_back(line)) {
+            EXPECT_TRUE(line.starts_with("shutter: measuring ")) << line;
+            EXPECT_TRUE(line.ends_with(" % done")) << line;
+        }
+        return lines;
+    }
+
     [[nodiscard]] json readResults() const { return json::parse(readFile("report/results.json")); }
 };
 
@@ -68,7 +82,7 @@ TEST_F(BenchCommand, ASuiteOrASceneIsRequiredAndNotBoth) {
     );
 }
 
-TEST_F(BenchCommand, ASentenceSaysHowToBuildItsProgramWhereThereIsNone) {
+TEST_F(BenchCommand, ASentenceExplainsHowToBuildItsProgramWhereThereIsNone) {
     isolateProgram();
     expectRefusal(
         {"bench", "--suite", "paper", "--out", path("x")},
@@ -129,7 +143,13 @@ TEST_F(BenchCommand, EveryMethodAndSampleCountIsMeasuredAndThePageIsMade) {
     requireDevice();
     if (IsSkipped())
         return;
-    expectSuccess(benchPaper({"--validate"}));
+    const std::vector<std::string> progress = expectMeasured(benchPaper({"--validate"}));
+    // One line per method, whatever its sample counts.
+    ASSERT_EQ(progress.size(), 5u);
+    EXPECT_EQ(progress[0], "shutter: measuring vase: the truth; 0 % done");
+    EXPECT_TRUE(progress[1].starts_with("shutter: measuring vase: sharp, method 1 of 3; "));
+    EXPECT_TRUE(progress[3].starts_with("shutter: measuring vase: hybrid, method 3 of 3; "));
+    EXPECT_TRUE(progress[4].starts_with("shutter: measuring vase: times; "));
     const json results = readResults();
     EXPECT_EQ(results.at("schema"), "shutter-bench");
     EXPECT_TRUE(results.at("complete"));
@@ -156,11 +176,14 @@ TEST_F(BenchCommand, FlightsAndDemosAreJudgedOverTime) {
     requireDevice();
     if (IsSkipped())
         return;
-    expectSuccess(benchSequence(
+    const auto progress = expectMeasured(benchSequence(
         {"--case", "courtyard-flight", "--case", "spin-play", "--frames", "4", "--validate"}
     ));
+    ASSERT_GT(progress.size(), 8u);
+    EXPECT_EQ(progress[0], "shutter: measuring courtyard-flight: frame 1 of 4; 0 % done");
     const json results = readResults();
     EXPECT_TRUE(results.at("complete"));
+    EXPECT_EQ(results.at("options").at(2), "--case courtyard-flight");
     ASSERT_EQ(results.at("sequences").size(), 2u);
     EXPECT_EQ(results.at("settings").at("truthSamples"), 4);
     for (const json& film : results.at("sequences")) {
@@ -207,7 +230,7 @@ TEST_F(BenchCommand, AStoppedSequenceResumes) {
     const json before = readRecords();
     ASSERT_TRUE(before.contains("own/resolved/15/4"));
     ASSERT_FALSE(before.contains("own/resolved/15/11"));
-    expectSuccess(arguments);
+    expectMeasured(arguments);
     const json after = readRecords();
     for (const auto& [key, record] : before.items())
         EXPECT_EQ(after.at(key), record) << key;
@@ -217,14 +240,14 @@ TEST_F(BenchCommand, AStoppedSequenceResumes) {
         EXPECT_TRUE(after.at(key).at("picture").at("metrics").contains("flicker")) << key;
     }
     const json once = readResults().at("sequences");
-    expectSuccess(arguments);
+    expectMeasured(arguments);
     EXPECT_EQ(readResults().at("sequences"), once) << "a third run measures nothing";
     const json& row = once.at(0).at("measurements").at(0);
     if (!row.contains("film"))
         return; // no encoder
     const std::string film = "report/" + row.at("film").get<std::string>();
     const std::string twelve = readFile(film);
-    expectSuccess(benchSequence({"--case", "spin-play", "--frames", "3"}));
+    expectMeasured(benchSequence({"--case", "spin-play", "--frames", "3"}));
     EXPECT_NE(readFile(film), twelve) << "the film of other frames is left";
 }
 
@@ -244,13 +267,13 @@ TEST_F(BenchCommand, AStoppedRunResumes) {
     const json before = json::parse(readFile("report/journal/vase.json"));
     const json kept = before.at("records").at("sharp/0");
     ASSERT_FALSE(kept.at("picture").empty());
-    expectSuccess(benchPaper({}));
+    expectMeasured(benchPaper({}));
     const json after = json::parse(readFile("report/journal/vase.json"));
     EXPECT_EQ(after.at("records").at("sharp/0").at("picture"), kept.at("picture"));
     EXPECT_TRUE(readResults().at("complete"));
     // A third run measures nothing: its results have the same times.
     const json twice = readResults().at("cases");
-    expectSuccess(benchPaper({}));
+    expectMeasured(benchPaper({}));
     EXPECT_EQ(readResults().at("cases"), twice);
 }
 
@@ -262,7 +285,7 @@ TEST_F(BenchCommand, ASceneOfOnesOwnIsMeasuredAsTyped) {
     Arguments arguments = benchPaper({"--time", "0.05", "--camera", "pan", "--phase", "centre"});
     arguments.erase(arguments.begin() + 1, arguments.begin() + 3);
     arguments.insert(arguments.begin() + 1, scene);
-    expectSuccess(arguments);
+    expectMeasured(arguments);
     const json shot = readResults().at("cases").at(0);
     EXPECT_EQ(shot.at("title"), "courtyard.glb");
     EXPECT_EQ(shot.at("camera"), "pan");

@@ -180,6 +180,30 @@ TEST(Progress, TheBarIsSilentIfTheOutputIsNoTerminal) {
     fclose(file);
 }
 
+TEST(Progress, PartsAreLinesWhereTheOutputIsNoTerminalAndNothingOnOne) {
+    std::FILE* file = std::tmpfile();
+    ASSERT_NE(file, nullptr);
+    {
+        Progress progress("measuring", 3, file, fakeClock);
+        progress.startPart("vase: gather");
+        progress.advance(2);
+        progress.startPart("vase: hybrid");
+    }
+    std::rewind(file);
+    std::string written(200, '\0');
+    written.resize(std::fread(written.data(), 1, written.size(), file));
+    std::fclose(file);
+    EXPECT_EQ(
+        written,
+        "shutter: measuring vase: gather; 0 % done\nshutter: measuring vase: hybrid; 66 % done\n"
+    );
+    Terminal terminal;
+    if (!terminal.file())
+        GTEST_SKIP() << "no pseudo-terminal is to be had here";
+    Progress("measuring", 3, terminal.file(), fakeClock).startPart("vase: gather");
+    EXPECT_EQ(terminal.takeOutput(), "");
+}
+
 TEST(Progress, MoreStepsThanAnnouncedStayAtTheEnd) {
     Terminal terminal;
     if (!terminal.file())
