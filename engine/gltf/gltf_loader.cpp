@@ -6,6 +6,8 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -28,6 +30,56 @@ void warnIgnoredExtensions(GltfContext& context) {
     }
 }
 
+/// An object in `extras` that this engine reads.
+struct OwnExtra {
+    std::string_view name;
+    std::string_view parent;
+};
+
+constexpr OwnExtra kOwnExtras[] = {
+    {"lens", "camera"}, {"motionBlur", "node"}, {"vertexWaves", "node"}, {"particles", "node"}};
+
+bool equalsButForCase(std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b, [](unsigned char left, unsigned char right) {
+        return std::tolower(left) == std::tolower(right);
+    });
+}
+
+/// Of objects with a name of ours, in other case or where it has no effect: a slip of the author.
+/// Others' extras are theirs.
+void warnOfMisplacedExtras(
+    GltfContext& context,
+    const tinygltf::Value& extras,
+    std::string_view parent,
+    const std::string& path
+) {
+    if (!extras.IsObject())
+        return;
+    for (const std::string& key : extras.Keys())
+        for (const OwnExtra& own : kOwnExtras)
+            if (equalsButForCase(key, own.name) && (key != own.name || parent != own.parent) &&
+                extras.Get(key).IsObject())
+                context.warnings.add(fmt::format(
+                    "{}.extras.{} is not used: it is '{}' in the extras of a {}",
+                    path,
+                    key,
+                    own.name,
+                    own.parent
+                ));
+}
+
+void warnOfMisplacedExtras(GltfContext& context) {
+    const auto warn = [&](const auto& parts, std::string_view parent, const char* array) {
+        for (size_t i = 0; i < parts.size(); ++i)
+            warnOfMisplacedExtras(
+                context, parts[i].extras, parent, fmt::format("{}[{}]", array, i)
+            );
+    };
+    warn(context.model.cameras, "camera", "cameras");
+    warn(context.model.nodes, "node", "nodes");
+    warn(context.model.scenes, "scene", "scenes");
+}
+
 /// Throws GltfError and whatever the libraries throw.
 LoadedScene buildScene(
     const std::filesystem::path& folder, std::span<const uint8_t> bytes, const GltfLimits& limits
@@ -44,6 +96,7 @@ LoadedScene buildScene(
     GltfContext context{model, resources, warnings, limits};
     checkAccessors(context);
     warnIgnoredExtensions(context);
+    warnOfMisplacedExtras(context);
     loadMaterials(context, loaded.world.assets);
     loadEnvironment(context, loaded.world.assets);
     loadMeshes(context, loaded.world.assets);

@@ -17,7 +17,7 @@ core::Result<scene::World> loadDemoScene(const std::filesystem::path& file) {
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)
-        core::logWarning("{}", warning);
+        core::logWarning("{}: {}", file.string(), warning);
     scene::World world = std::move(loaded.value().world);
     world.startSeconds = 0.0;
     return world;

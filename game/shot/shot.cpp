@@ -218,7 +218,7 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)
-        core::logWarning("{}", warning);
+        core::logWarning("{}: {}", options.scene.string(), warning);
     Shot shot;
     shot.world = std::move(loaded.value().world);
     std::optional<uint32_t> flying;

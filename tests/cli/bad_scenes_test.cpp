@@ -53,6 +53,32 @@ class CliScenes : public Cli {
 
 } // namespace
 
+TEST_F(CliScenes, AMisspeltMemberOfTheExtrasIsWarnedOfWithItsFile) {
+    writeFile(
+        "misspelt.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"camera": 0}], "cameras": [{"type": "perspective",
+        "perspective": {"yfov": 0.7, "znear": 0.1}, "extras": {"lens": {"fstop": 2}, "id": 3}}]})"
+    );
+    const Outcome drawn = run(
+        {"render",
+         "misspelt.gltf",
+         "--size",
+         "64x36",
+         "--method",
+         "sharp",
+         "--out",
+         path("a.png"),
+         "--device",
+         "llvmpipe"}
+    );
+    EXPECT_EQ(drawn.status, 0);
+    EXPECT_EQ(
+        drawn.err,
+        "shutter: warning: misspelt.gltf: cameras[0].extras.lens has a member 'fstop': not used\n"
+    );
+}
+
 TEST_F(CliScenes, AFileOutsideTheFolderIsReadOnlyWhereThatIsAllowed) {
     fs::create_directory(path("sub"));
     std::string scene = makeTriangle(36, "");

@@ -104,7 +104,7 @@ TEST(GltfDocument, RequiredExtensionsAreNamedWhenTheyAreNotSupported) {
     EXPECT_TRUE(hasWarning(expectLoads(loadMembers(R"("extensionsUsed":["EXT_foo"])")), "EXT_foo"));
 }
 
-TEST(GltfDocument, AGlbLoadsWhateverItsNameSays) {
+TEST(GltfDocument, AGlbLoadsUnderAnyName) {
     const GltfFile file;
     const std::string content = glb(chunk("JSON", file.json(""), ' '));
     expectLoads(loadBytes(content));
@@ -167,7 +167,7 @@ TEST(GltfDocument, BuffersComeFromFilesAndDataUris) {
     expectRefused(load(R"({"uri":"sub dir/b.bin"})"), "buffers[0].byteLength is missing");
 }
 
-TEST(GltfDocument, FilesOutsideTheFolderAreReadWhereTheCallerSaysSo) {
+TEST(GltfDocument, FilesOutsideTheFolderAreReadWhereTheCallerAllowsIt) {
     const TempFolder folder;
     folder.write("b.bin", "0123");
     for (const std::string& uri : {std::string("../b.bin"), (folder.path() / "b.bin").string()}) {

@@ -76,7 +76,7 @@ TEST(GltfNode, OnlyTheDefaultSceneBecomesEntities) {
     EXPECT_NE(findNamed(second.world, "c"), ecs::kNullEntity);
 }
 
-TEST(GltfNode, AFileWithoutScenesDrawsNothingAndSaysSo) {
+TEST(GltfNode, AFileWithoutScenesDrawsNothingAndAWarningStatesIt) {
     const LoadedScene scene = expectLoads(loadMembers(R"("nodes":[{}])"));
     EXPECT_EQ(scene.world.registry.aliveCount(), 0u);
     EXPECT_TRUE(hasWarning(scene, "no scene"));
@@ -444,7 +444,7 @@ TEST(GltfInstancing, DamagedInstancesAreRefused) {
     );
 }
 
-TEST(GltfInstancing, ASmallFileMayNotAskForMoreInstancesThanMemoryHolds) {
+TEST(GltfInstancing, ASmallFileMayNotRequestMoreInstancesThanMemoryHolds) {
     GltfFile file = makeInstancedFile();
     file.addAccessor(R"({"componentType":5126,"count":40000000,"type":"VEC3"})");
     expectRefused(file.load(members(attributes(R"("_ID":5)"))), "4 GiB");
@@ -539,6 +539,39 @@ TEST(GltfLens, TheLensIsReadFromTheCamerasExtras) {
     ASSERT_EQ(some.warnings.size(), 1u);
     EXPECT_EQ(some.warnings[0], "cameras[0].extras.lens has a member 'focus': not used");
     EXPECT_FALSE(findLens(expectLoads(loadLens("{}"))));
+}
+
+TEST(GltfExtras, OwnNamesInOtherCaseOrOfAnotherPartAreWarnedOf) {
+    const auto warnings = [](const std::string& camera, const std::string& node) {
+        return expectLoads(
+                   loadMembers(
+                       R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"camera":0,"extras":)" +
+                       node +
+                       R"(}],"cameras":[{"type":"perspective","perspective":)"
+                       R"({"yfov":0.7,"znear":0.1},"extras":)" +
+                       camera + "}]"
+                   )
+        )
+            .warnings;
+    };
+    const std::string lens = R"({"lens":{"fStop":2}})";
+    EXPECT_EQ(
+        warnings("{}", lens),
+        std::vector<std::string>{
+            "nodes[0].extras.lens is not used: it is 'lens' in the extras of a camera"}
+    );
+    EXPECT_EQ(
+        warnings(R"({"Lens":{"fStop":2}})", "{}"),
+        std::vector<std::string>{
+            "cameras[0].extras.Lens is not used: it is 'lens' in the extras of a camera"}
+    );
+    EXPECT_EQ(
+        warnings("{}", R"({"motionblur":{"scale":0}})"),
+        std::vector<std::string>{
+            "nodes[0].extras.motionblur is not used: it is 'motionBlur' in the extras of a node"}
+    );
+    // Other programs' own: numbers and names.
+    EXPECT_TRUE(warnings(lens, R"({"lens":50,"sharpness":{"a":1}})").empty());
 }
 
 core::Result<LoadedScene> loadFocus(const std::string& lens) {
