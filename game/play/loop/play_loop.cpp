@@ -110,7 +110,7 @@ core::Status PlayLoop::openScript() {
 
 core::Status PlayLoop::openScreen() {
     SHUTTER_TRY(mScreen.open(mOptions, mSettings.vsync));
-    if (mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
+    if (!mOptions.preset && mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
         mMessage = SettingsKeeper::slowDown(mOptions, mSettings);
     for (const MethodInfo& method : listMethods())
         if (canRun(method, mScreen.device()))
@@ -208,7 +208,7 @@ core::Status PlayLoop::advance() {
     const math::uvec2 size = mScreen.size();
     const bool hidden = size.x == 0 || size.y == 0;
     // Between two sizes one turn goes without a picture; a window that takes none for longer is
-    // asked again after a rest.
+    // polled again after a rest.
     const bool rests = hidden || mTurnsWithoutPicture > 1;
     mScreen.poll(rests && !mScript);
     if (rests && mScript)

@@ -76,7 +76,7 @@ class PlayLoop {
     void focusOnMiddle();
     /// Why the next picture has no depth of field; empty: it has.
     [[nodiscard]] std::string explainPinhole() const;
-    /// Tells a player who named a lens that it has no effect.
+    /// Warns a player who named a lens that it has no effect.
     void warnOfPinhole();
     /// The active camera: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;

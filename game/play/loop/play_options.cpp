@@ -72,6 +72,9 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
+    command
+        .add_option("--preset", a.preset, "start with off, performance, balanced, quality or paper")
+        ->excludes("--method");
     kVsyncRow.define(command, kVsyncRow, a);
     command.add_option("--ui-scale", a.uiScale, "size of text and panel, 0.5 to 4; default: 1");
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
@@ -104,7 +107,7 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         return makeError(
             "--camera, --flythrough and --clip belong to a scene, {} is a demo", options.demo
         );
-    // Settings of the session, for any camera that is looked through.
+    // Settings of the session, for any active camera.
     options.fStop = std::exchange(options.shot.fStop, std::nullopt);
     options.focusDistance = std::exchange(options.shot.focusDistance, std::nullopt);
     SHUTTER_TRY(loadFlythrough(shot, options.shot));
@@ -115,6 +118,12 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         if (const auto method = findMethod(arguments.method); !method)
             return method.error();
         options.method = arguments.method;
+    }
+    if (!arguments.preset.empty()) {
+        const auto preset = findPreset(arguments.preset);
+        if (!preset)
+            return preset.error();
+        options.preset = preset.value();
     }
     options.vsync = arguments.vsync;
     if (const auto& scale = arguments.uiScale) {

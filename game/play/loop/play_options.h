@@ -23,6 +23,7 @@ struct PlayArguments {
     gpu::DeviceOptions device;
     std::string ffmpeg;
     std::string method; ///< empty: the settings' own
+    std::string preset; ///< empty: none
     std::string script;
     std::string film;
     std::string settings;
@@ -41,6 +42,7 @@ struct PlayOptions {
     gpu::DeviceOptions device;
     std::filesystem::path ffmpeg;      ///< empty: the one on PATH
     std::optional<std::string> method; ///< wins over the settings' own
+    const Preset* preset = nullptr;    ///< wins over the settings' own method and effects
     std::filesystem::path script;      ///< empty: a person plays
     std::filesystem::path film;        ///< %04d.png or .mp4; empty: none
     core::FrameRate fps = 30.0;        ///< of frames that do not run in real time

@@ -15,6 +15,8 @@ namespace {
 constexpr double kFirstBudgetMilliseconds = 16.0;
 
 void applyOptions(const PlayOptions& options, PlaySettings& settings) {
+    if (options.preset)
+        applyPreset(*options.preset, settings);
     if (options.method)
         settings.method = *options.method;
     if (options.vsync)

@@ -74,6 +74,27 @@ TEST(PlayOptions, TheLensIsTheSessionsNotTheScenes) {
     expectRefused(arguments, "--fstop");
 }
 
+TEST(PlayOptions, APresetIsAKnownNameAndExcludesAMethod) {
+    const auto parse = [](std::vector<std::string> reversed) {
+        PlayArguments arguments;
+        CLI::App app;
+        definePlayOptions(app, arguments);
+        app.parse(reversed);
+        return arguments;
+    };
+    const PlayOptions options = interpret(parse({"paper", "--preset"})).value();
+    ASSERT_TRUE(options.preset);
+    EXPECT_STREQ(options.preset->name, "paper");
+    EXPECT_FALSE(interpret(parse({})).value().preset);
+    EXPECT_THROW(parse({"gather", "--method", "off", "--preset"}), CLI::ExcludesError);
+    PlayArguments wrong;
+    wrong.preset = "papers";
+    EXPECT_EQ(
+        interpret(wrong).error().message,
+        "--preset 'papers' is unknown; there are off, performance, balanced, quality, paper"
+    );
+}
+
 TEST(PlayOptions, WrongUsageIsReportedByOption) {
     PlayArguments arguments;
     arguments.method = "nothing";

@@ -14,7 +14,11 @@ class Keeper : public testing::Test {
     ~Keeper() override { std::filesystem::remove(mFile); }
 
     PlaySettings load(const std::string& lens, const PlayOptions& named) {
-        std::ofstream(mFile) << R"({"version": 1, "lens": )" << lens << "}";
+        return loadMember(R"("lens": )" + lens, named);
+    }
+
+    PlaySettings loadMember(const std::string& member, const PlayOptions& named) {
+        std::ofstream(mFile) << R"({"version": 1, )" << member << "}";
         PlayOptions options = named;
         options.settings = mFile;
         std::string message;
@@ -46,6 +50,20 @@ TEST_F(Keeper, AnEntityToFocusOnReplacesTheDistanceOfTheSettings) {
     EXPECT_EQ(load(R"({"focusDistance": 3})", named).lens.focusDistance, 3.0);
     named.shot.focusEntity = "ball";
     EXPECT_EQ(load(R"({"focusDistance": 3})", named).lens.focusDistance, 0.0);
+}
+
+TEST_F(Keeper, APresetReplacesTheFilesMethodAndEffectsAndYieldsToTypedOptions) {
+    const std::string file = R"("method": "gather", "antiAliasing": "box", "bloomShare": 0.5)";
+    EXPECT_EQ(loadMember(file, {}).method, "gather");
+    PlayOptions options;
+    options.preset = findPreset("quality").value();
+    const PlaySettings quality = loadMember(file, options);
+    EXPECT_TRUE(isApplied(*options.preset, quality));
+    EXPECT_EQ(quality.method, "adaptive");
+    EXPECT_EQ(quality.picture.antiAliasing, AntiAliasing::Taa);
+    options.typed = {"--aa"};
+    options.shot.picture.antiAliasing = AntiAliasing::Box;
+    EXPECT_EQ(loadMember(file, options).picture.antiAliasing, AntiAliasing::Box);
 }
 
 } // namespace

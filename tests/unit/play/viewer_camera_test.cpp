@@ -47,7 +47,7 @@ TEST_F(Viewer, TheViewerStartsAtTheOtherCamera) {
 }
 
 TEST_F(Viewer, ItHasTheLensOfTheOtherCameraHoweverThatIsFocused) {
-    const auto look = [&](ecs::Entity like) {
+    const auto see = [&](ecs::Entity like) {
         const ViewerCamera viewer(mWorld, like, 5.0, 0.5);
         scene::advanceAutoFocus(mWorld, 0.5);
         return scene::lensAt(mWorld, viewer.entity(), 0.5);
@@ -55,19 +55,19 @@ TEST_F(Viewer, ItHasTheLensOfTheOtherCameraHoweverThatIsFocused) {
     const ecs::Entity like = mWorld.registry.create();
     mWorld.registry.add(like, scene::Camera{});
     mWorld.registry.add(like, scene::LocalTransform{});
-    EXPECT_EQ(look(like).fStop, 0.0);
+    EXPECT_EQ(see(like).fStop, 0.0);
     mWorld.registry.add(like, scene::CameraLens{.fStop = 2.0, .focusDistance = 7.0});
-    EXPECT_EQ(look(like).focusDistance, 7.0);
+    EXPECT_EQ(see(like).focusDistance, 7.0);
     const ecs::Entity target = mWorld.registry.create();
     mWorld.registry.add(target, scene::LocalTransform{{.translation = {0, 0, -4}}});
     mWorld.registry.add(like, scene::AutoFocus{target});
-    EXPECT_DOUBLE_EQ(look(like).focusDistance, 4.0);
-    EXPECT_EQ(look(like).fStop, 2.0);
+    EXPECT_DOUBLE_EQ(see(like).focusDistance, 4.0);
+    EXPECT_EQ(see(like).fStop, 2.0);
     mWorld.registry.add(like, scene::FocusMotion{{{0.0, 1.5, 4.0, false}}});
-    EXPECT_EQ(look(like).focusDistance, 1.5) << "keys go before autofocus";
-    EXPECT_EQ(look(like).fStop, 4.0);
+    EXPECT_EQ(see(like).focusDistance, 1.5) << "keys go before autofocus";
+    EXPECT_EQ(see(like).fStop, 4.0);
     mWorld.registry.remove<scene::CameraLens>(like);
-    EXPECT_EQ(look(like).focusDistance, 1.5) << "keys alone";
+    EXPECT_EQ(see(like).focusDistance, 1.5) << "keys alone";
 }
 
 TEST_F(Viewer, TheViewersMotionOverTheFrameIsTheOneItTook) {
