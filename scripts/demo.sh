@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Sets up, renders a first picture, then the generated scenes with every method, and compares each with
-# `accumulate`.
+# Sets up, renders the generated scenes with every method, the pictures to compare first, and measures
+# each against `accumulate`. Prints what each step took and what is left.
 set -euo pipefail
 
 script_name=demo
@@ -14,7 +14,7 @@ reference=accumulate
 shutter=build/release/shutter
 out=build/demo
 size=1280x720
-first=resolved # its picture of the first scene comes before all others
+first=(resolved sharp accumulate jimenez2014) # the default, no blur, the truth, a filter that engines ship
 failed=()
 begun=0 drawn=0 total=0
 
@@ -38,8 +38,23 @@ render() {
     say "picture $drawn of $total: $(basename "$scene"), method $method$(describe_time_left)"
     # What an earlier run left must not be taken for this run's.
     rm -f "$stem.png" "$stem.json"
+    local start=$SECONDS
     "$shutter" render "$scene" --method "$method" --size "$size" --out "$stem.png" \
-        --stats "$stem.json" "${rays[@]}" "$@"
+        --stats "$stem.json" "${rays[@]}" "$@" || return
+    say "$root/$stem.png after $((SECONDS - start)) s"
+}
+
+# Prints the methods that follow, those of `first` before the others.
+list_methods() {
+    local method other
+    for method in "${first[@]}"; do
+        for other in "$@"; do
+            [[ $method != "$other" ]] || printf '%s\n' "$method"
+        done
+    done
+    for method in "$@"; do
+        [[ " ${first[*]} " == *" $method "* ]] || printf '%s\n' "$method"
+    done
 }
 
 # What pictures take differs by method, so this is known about.
@@ -88,7 +103,10 @@ main() {
         shift
     done
     [[ $size =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || die_of_usage "--size $size is not WIDTHxHEIGHT"
+    say "step 1 of 3: setup and build, up to 12 minutes on two cores the first time"
+    begun=$SECONDS
     "$root/scripts/setup.sh"
+    say "setup and build took $((SECONDS - begun)) s"
     cd "$root"
     mkdir -p "$out"
     mapfile -t methods < <("$shutter" info --methods)
@@ -96,16 +114,16 @@ main() {
     for scene in "${scenes[@]}"; do
         [[ -e $scene ]] || die "$scene is missing although the build went through"
     done
+    mapfile -t methods < <(list_methods "${methods[@]}")
     total=$((${#scenes[@]} * ${#methods[@]}))
+    say "step 2 of 3: $total pictures, some 3 minutes on two idle cores at 1280x720"
     begun=$SECONDS
-    try "${scenes[0]}" "$first" "${extra[@]}"
-    say "the first picture is there: $root/$out/$(basename "${scenes[0]}" .glb)_$first.png"
     for scene in "${scenes[@]}"; do
         for method in "${methods[@]}"; do
-            [[ $scene == "${scenes[0]}" && $method == "$first" ]] ||
-                try "$scene" "$method" "${extra[@]}"
+            try "$scene" "$method" "${extra[@]}"
         done
     done
+    say "step 3 of 3: PSNR, SSIM and FLIP of each against $reference, some seconds"
     for scene in "${scenes[@]}"; do
         compare_methods "$scene" "${methods[@]}"
     done
