@@ -14,7 +14,7 @@ from package import (BUILD, CC, CMAKE, CXX, ROOT, fail, list_symbols, list_words
                      run_validated)
 
 EXAMPLES = ROOT / "game/examples"
-MOST_LINES = {"bare_renderer": 165, "c_host": 150, "deforming_host": 300, "new_effect": 99}
+MOST_LINES = {"bare_renderer": 165, "c_host": 150, "deforming_host": 310, "new_effect": 99}
 SOURCES = {".c", ".cpp", ".h", ".comp", ".frag", ".vert", ".txt"}
 
 

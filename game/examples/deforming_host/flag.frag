@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #version 460
 layout(push_constant) uniform Push { layout(offset = 32) vec4 sizePx; } push;
-layout(location = 0) in vec4 vClips[3];
-layout(location = 3) in vec2 vPlace;
+layout(location = 0) in vec4 vClips[4];
+layout(location = 4) in vec2 vPlace;
 layout(location = 0) out vec4 outColor;
-layout(location = 1) out vec4 outMotionDepth; // pixels from shutter open to close; metres
+layout(location = 1) out vec2 outVector; // to the previous frame, in texture coordinates
 layout(location = 2) out uint outEntityId;
 layout(location = 3) out vec4 outDeformed; // pixels from here to shutter open and to close
 
@@ -19,7 +19,7 @@ void main() {
     outColor = vec4(isFlag ? flag : wall, 1.0f);
     vec2 open = placeOf(vClips[1]);
     vec2 close = placeOf(vClips[2]);
-    outMotionDepth = vec4(close - open, vClips[0].w, 0.0f);
+    outVector = (placeOf(vClips[3]) - placeOf(vClips[0])) / push.sizePx.xy;
     outEntityId = isFlag ? 1u : 0u;
     outDeformed = vec4(open, close) - placeOf(vClips[0]).xyxy;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A wall (entity 0) and a flag (entity 1) that waves: each vertex at three times.
+// A wall (entity 0) and a flag (entity 1) that waves: each vertex at four times.
 #version 460
 layout(push_constant) uniform Push {
-    vec4 seconds; // of the raster, of shutter open, of shutter close
+    vec4 seconds; // of the raster, of shutter open and close, of the previous frame
     vec4 lens;    // what x and y are multiplied by; near plane
 } push;
-layout(location = 0) out vec4 vClips[3];
-layout(location = 3) out vec2 vPlace;
+layout(location = 0) out vec4 vClips[4];
+layout(location = 4) out vec2 vPlace;
 
 const uvec2 kCells = uvec2(48u, 16u);
 
@@ -22,7 +22,7 @@ void main() {
     uint corner = uint[](0u, 1u, 2u, 2u, 1u, 3u)[gl_VertexIndex % 6u];
     uvec2 knot = uvec2(cell % kCells.x, cell / kCells.x) + uvec2(corner & 1u, corner >> 1u);
     vPlace = vec2(knot) / vec2(kCells);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 4; ++i) {
         vec3 view = pose(vPlace, push.seconds[i]);
         vClips[i] = vec4(push.lens.xy * view.xy, push.lens.z, -view.z); // reversed depth
     }

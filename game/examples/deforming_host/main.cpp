@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion blur of meshes that a renderer deforms itself: a flag that its vertex shader waves, from
-// which it writes "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4); bare_renderer
-// has less.
+// Motion blur by `resolved` of meshes that a renderer deforms itself: a flag that its vertex shader
+// waves, with the renderer's own motion vectors and depth buffer, from which it writes "before.ppm"
+// and "after.ppm". Shutter's part is marked (1) to (4); bare_renderer has less.
 #include "spirv/flag.frag.h"
 #include "spirv/flag.vert.h"
 
@@ -22,7 +22,7 @@ constexpr float kFocal = 2.0f, kNear = 0.1f; // of the lens; metres
 constexpr vk::Extent3D kSize(kWidth, kHeight, 1);
 constexpr vk::DeviceSize kBytes = kWidth * kHeight * 8; // of a picture in half floats
 constexpr auto kHalf = vk::Format::eR16G16B16A16Sfloat, kDepth = vk::Format::eD32Sfloat;
-constexpr std::array kFormats{kHalf, vk::Format::eR32G32B32A32Sfloat, vk::Format::eR32Uint, kHalf};
+constexpr std::array kFormats{kHalf, vk::Format::eR16G16Sfloat, vk::Format::eR32Uint, kHalf};
 constexpr auto kTarget = vk::ImageLayout::eGeneral, kSource = vk::ImageLayout::eTransferSrcOptimal;
 constexpr auto kAny = vk::PipelineStageFlagBits2::eAllCommands;
 constexpr auto kWrite = vk::AccessFlagBits2::eMemoryWrite, kRead = vk::AccessFlagBits2::eHostRead;
@@ -59,7 +59,7 @@ struct Image {
     }
 };
 
-/// Targets of the flag: colour, motion and depth, entity ids, deformed motion; depth.
+/// Targets of the flag: colour, motion vectors, entity ids, deformed motion; depth.
 struct Targets {
     std::vector<Image> images;
 
@@ -67,17 +67,17 @@ struct Targets {
         using enum vk::ImageUsageFlagBits;
         for (const vk::Format format : kFormats)
             images.emplace_back(gpu, format, eColorAttachment | eSampled | eTransferSrc);
-        images.emplace_back(gpu, kDepth, eDepthStencilAttachment);
+        images.emplace_back(gpu, kDepth, eDepthStencilAttachment | eSampled);
     }
 
     shutter::BlurImage describe(size_t i, vk::ImageLayout next = kTarget) const {
-        return {
-            *images[i].image, VkImageLayout(kTarget), VkImageLayout(next), VkFormat(kFormats[i])};
+        const vk::Format format = i < kFormats.size() ? kFormats[i] : kDepth;
+        return {*images[i].image, VkImageLayout(kTarget), VkImageLayout(next), VkFormat(format)};
     }
 };
 
 struct Push {
-    std::array<float, 4> seconds; // of the raster, of shutter open, of shutter close
+    std::array<float, 4> seconds; // of the raster, of shutter open and close, of the previous frame
     std::array<float, 4> lens{kFocal * kHeight / kWidth, -kFocal, kNear, 0.0f};
     std::array<float, 4> sizePx{kWidth, kHeight};
 };
@@ -112,7 +112,7 @@ vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout) {
     return {gpu.device, nullptr, info.setLayout(layout).setPNext(&formats)};
 }
 
-/// Draws the flag as it is at a time, and where it is at two others.
+/// Draws the flag as it is at a time, and where it is at three others.
 void draw(
     vk::CommandBuffer commands,
     const Targets& targets,
@@ -202,7 +202,15 @@ int main() try {
     const std::array movers{ShutterBlurMover{1, nullptr}};
     shutter::BlurInputs inputs(kWidth, kHeight);
     inputs.color = now.describe(0, kSource);
-    inputs.motionDepth = now.describe(1);
+    inputs.vectors = now.describe(1); // to the previous frame, in texture coordinates
+    inputs.pixelsPerUnit[0] = -float(kWidth);
+    inputs.pixelsPerUnit[1] = -float(kHeight);
+    inputs.depth = now.describe(4); // reversed: skyValue is 0
+    inputs.cameras.areGiven = VK_TRUE;
+    shutter::setMatrix(inputs.cameras.viewFromWorld, keys[0].viewFromWorld);
+    shutter::setMatrix(inputs.cameras.viewFromWorldBefore, keys[0].viewFromWorld);
+    shutter::setMatrix(inputs.cameras.clipFromView, keys[0].clipFromView);
+    shutter::setMatrix(inputs.cameras.clipFromViewBefore, keys[0].clipFromView);
     inputs.entityId = now.describe(2);
     inputs.deformedMotion = now.describe(3);
     inputs.output = shutter::BlurImage(*output.image, {}, VkImageLayout(kSource));
@@ -215,9 +223,10 @@ int main() try {
         const vk::CommandBuffer todo = *commands[0];
         todo.begin(vk::CommandBufferBeginInfo());
         const float close = 1.0f + float(frame) * kFrameSeconds, open = close - kExposureSeconds;
-        draw(todo, now, *pipeline, *layout, {.seconds = {close, open, close}});
+        const float before = close - kFrameSeconds;
+        draw(todo, now, *pipeline, *layout, {.seconds = {close, open, close, before}});
         if (frame > 0) { // the flag as it was, and where it is in this exposure
-            draw(todo, last, *pipeline, *layout, {.seconds = {close - kFrameSeconds, open, close}});
+            draw(todo, last, *pipeline, *layout, {.seconds = {before, open, close, before}});
             inputs.lastDeformedMotion = last.describe(3);
             inputs.followsLast = VK_TRUE;
         }
