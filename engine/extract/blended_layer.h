@@ -58,11 +58,11 @@ struct BlendedLayer {
 };
 
 struct LayerLimits {
-    uint32_t instants = 15; ///< maximum that are drawn and looked up
+    uint32_t instants = 15; ///< maximum that are drawn
     /// Above 1: minimum number of instants, each with another sample place in the pixel, for a
     /// picture with anti-aliased edges.
     uint32_t leastInstants = 1;
-    bool findsInstants = false; ///< the method can look up depths and colours of instants
+    bool findsInstants = false; ///< the method reads depths and colours of instants
     uint64_t surfaceBytes = 0;  ///< most memory for them
 };
 

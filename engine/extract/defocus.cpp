@@ -18,7 +18,7 @@ using math::dvec3;
 using math::dvec4;
 
 constexpr double kFarthestDepth = std::numeric_limits<double>::infinity();
-/// Shutter times at which the picture is looked at.
+/// Shutter times at which the picture is examined.
 constexpr std::array kTimes{0.0, 0.25, 0.5, 0.75, 1.0};
 
 /// Convex, in clip space. A face of a box gains a corner at each of the picture's four sides.

@@ -7,7 +7,7 @@
 
 namespace shutter::extract {
 
-/// Circles of confusion up to this diameter cannot be told from none, pixels.
+/// Circles of confusion up to this diameter are indistinguishable from none, pixels.
 inline constexpr double kMinDefocusPx = 0.5;
 
 /// Whether the lens may spread something in the picture over more than kMinDefocusPx: what lies

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instance masks that let a ray exclude one chosen entity. Each mask has as many bits as the
+// Instance masks by which a ray excludes one chosen entity. Each mask has as many bits as the
 // others, so that none lies within another (Sperner 1928): a ray with all bits but one entity's
 // misses that entity and hits every other, at no cost in the traversal.
 #pragma once

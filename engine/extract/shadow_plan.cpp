@@ -84,7 +84,7 @@ class Planner {
   private:
     core::Decision decide() {
         if (mView.shadows.mode == ShadowMode::None)
-            return {false, "shadows are not asked for"};
+            return {false, "no shadows are requested"};
         if (mView.unlit)
             return {false, "the picture is unlit"};
         if (mFrame.opaque.empty() && mFrame.blended.empty())
@@ -336,7 +336,7 @@ class Planner {
 
     void explainBlur() {
         if (mView.shadows.mode != ShadowMode::Blurred)
-            mPlan.blur = {false, "sharp shadows are asked for"};
+            mPlan.blur = {false, "sharp shadows are requested"};
         else if (!mBlurs)
             mPlan.blur = {false, "the picture is of one instant"};
         else if (mMoving == 0)

@@ -13,7 +13,7 @@
 
 namespace shutter::extract {
 
-/// The picture that shadows are looked up for.
+/// The picture that receives the shadows.
 struct ShadowPicture {
     math::dmat4 clipFromWorld{1.0};
     math::uvec2 sizePx{0};

@@ -44,7 +44,7 @@ struct TimedTables {
 };
 
 /// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster
-/// instant but can at another (scaled to nothing for a while, say) gets an extra row after the
+/// instant but can at another (as one scaled to nothing for a while) gets an extra row after the
 /// others: no pixel of the raster image has its id, but rays may hit it. Error: the world has more
 /// entities than the table can hold, or the shapes need more than kMaxDeformedBytes.
 [[nodiscard]] core::Result<TimedTables> computeTimedTables(

@@ -30,7 +30,7 @@ struct FlythroughShutter {
 struct FlythroughKey {
     double seconds = 0.0;                ///< scene time, [-1e6, 1e6]
     math::dvec3 position{0.0};           ///< metres, world space, each in [-1e9, 1e9]
-    std::optional<math::dvec3> lookAt;   ///< point to look at, same units; all keys have one, or
+    std::optional<math::dvec3> lookAt;   ///< point to aim at, same units; all keys have one, or
     std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
     /// Vertical, of the picture, degrees, [0.01, 179]; in all keys or none.
     std::optional<double> fieldOfView;

@@ -375,7 +375,7 @@ uint64_t Device::completedValue() const {
     if (mIsAdopted)
         return mHandedOver.empty() ? mLastSubmitted : *mHandedOver.begin() - 1;
     uint64_t value = 0;
-    require(vkGetSemaphoreCounterValue(mDevice, mTimeline, &value), "asking the timeline");
+    require(vkGetSemaphoreCounterValue(mDevice, mTimeline, &value), "reading the timeline");
     return value;
 }
 

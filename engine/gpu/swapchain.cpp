@@ -9,13 +9,13 @@ namespace shutter::gpu {
 namespace {
 
 /// The surface's answer, or nothing once it is gone.
-std::optional<VkSurfaceCapabilitiesKHR> askSurface(const Device& device, VkSurfaceKHR surface) {
+std::optional<VkSurfaceCapabilitiesKHR> querySurface(const Device& device, VkSurfaceKHR surface) {
     VkSurfaceCapabilitiesKHR capabilities{};
-    const VkResult asked =
+    const VkResult queried =
         vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &capabilities);
-    if (asked == VK_ERROR_SURFACE_LOST_KHR)
+    if (queried == VK_ERROR_SURFACE_LOST_KHR)
         return std::nullopt;
-    require(asked, "asking the window");
+    require(queried, "querying the window");
     return capabilities;
 }
 
@@ -112,7 +112,7 @@ bool Swapchain::resize(const SwapchainDesc& desc) {
     mWanted = desc;
     mDesc = desc;
     mState = SwapchainState::Fits;
-    const auto surface = askSurface(mDevice, mSurface);
+    const auto surface = querySurface(mDevice, mSurface);
     if (!surface) {
         mState = SwapchainState::SurfaceLost;
         return false;
@@ -212,7 +212,7 @@ std::optional<SwapchainImage> Swapchain::acquire() {
 void Swapchain::noteState(VkResult result) {
     VkExtent2D size{mDesc.width, mDesc.height};
     if (result == VK_SUBOPTIMAL_KHR)
-        if (const auto surface = askSurface(mDevice, mSurface))
+        if (const auto surface = querySurface(mDevice, mSurface))
             size = surface->currentExtent;
     mState = judgeSwapchain(result, {mDesc.width, mDesc.height}, size);
 }

@@ -118,7 +118,7 @@ ImageHandle Graph::findImage(uint32_t resource, uint32_t version) const {
 const TransientImageDesc& Graph::describeImage(ImageHandle image) const {
     SHUTTER_CHECK(
         image.graph == mId && image.resource < mResources.size(),
-        "image handle {} of graph {} asked of graph {}",
+        "image handle {} of graph {} used with graph {}",
         image.resource,
         image.graph,
         mId

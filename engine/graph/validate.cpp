@@ -114,7 +114,7 @@ core::Status checkUse(const Graph& graph, const PassRecord& pass, const Resource
         );
     if (use.access == Access::HostRead && !resource.imported)
         return core::makeError(
-            "pass '{}' lets the host read '{}', which is transient and not mapped",
+            "pass '{}' makes the host read '{}', which is transient and not mapped",
             pass.name,
             resource.name
         );
@@ -232,7 +232,7 @@ checkResults(const Graph& graph, const VersionTable& versions, const std::vector
             if (const auto other =
                     findOverwriter(graph, versions, kept, use.resource, use.readVersion))
                 return core::makeError(
-                    "pass '{}' lets the host read '{}', but pass '{}' overwrites it",
+                    "pass '{}' makes the host read '{}', but pass '{}' overwrites it",
                     passes[pass].name,
                     graph.resources()[use.resource].name,
                     passes[*other].name

@@ -234,9 +234,9 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
         ));
     // It prints nothing on success, and nothing about missing frames either.
     if (!run.value().errors.empty())
-        return fail(
-            fmt::format("{} says: {}", encoder.program.string(), findLastLine(run.value().errors))
-        );
+        return fail(fmt::format(
+            "{} reports: {}", encoder.program.string(), findLastLine(run.value().errors)
+        ));
     if (const auto missing = findMissingFrame(frames))
         return fail(fmt::format("the frame '{}' is missing", missing->string()));
     if (fs::file_size(target, failure) == 0 || failure)

@@ -76,7 +76,7 @@ class BlendedLayerPass::Recorder {
         viewport.height = float(pictureSize.y);
         viewport.maxDepth = 1.0f;
         vkCmdSetViewport(commands, 0, 1, &viewport);
-        // Images are larger than the rectangle, looked-up data is not.
+        // Images are larger than the rectangle, data that is read is not.
         const VkRect2D scissor{{0, 0}, {mLayer.sizePx.x, mLayer.sizePx.y}};
         vkCmdSetScissor(commands, 0, 1, &scissor);
         const shader::InstantSurfaces surfaces = mLayer.surfaces();

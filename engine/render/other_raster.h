@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A second raster of the world, at another time than the frame's: at the other end of the exposure
-// or at the previous frame. Effects look up surfaces in it that the frame's own raster lacks.
+// or at the previous frame. Effects find surfaces in it that the frame's own raster lacks.
 #pragma once
 
 #include "engine/core/result.h"

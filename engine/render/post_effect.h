@@ -45,7 +45,7 @@ struct ViewFacts {
     core::Decision reveal;
     /// False: the frame is not shown; it is drawn only for the history of effects.
     bool pictureWanted = true;
-    /// False: the next frame looks up nothing in this one, and effects preserve their earlier
+    /// False: the next frame reads nothing of this one, and effects preserve their earlier
     /// history.
     bool isFollowed = true;
     /// Device counters of effects are read, beyond those that they need themselves.

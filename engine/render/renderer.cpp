@@ -211,7 +211,7 @@ core::Status Renderer::submitFrame(
         return extracted.error();
     extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
-    // Only effects ask, and none of a picture of one instant.
+    // Only effects need it, and none for a picture of one instant.
     if (!effects.empty() && !request.view.instant)
         facts.isDefocused = extract::isDefocused(
             world, request.view, mExtractor.view().motion(), frame, mScene.layout()

@@ -47,7 +47,7 @@ struct FrameRequest {
     bool showsDisplay = false;
     /// False: the frame is not shown. Effects only store history for the next frame.
     bool wantPicture = true;
-    /// False: the next frame looks up nothing in this one. Effects preserve their earlier history.
+    /// False: the next frame reads nothing of this one. Effects preserve their earlier history.
     bool isFollowed = true;
     /// A measurement, not a frame of the picture: idle resources are not freed.
     bool measuresMotion = false;

@@ -29,8 +29,7 @@ Renderer::RunningEffects Renderer::askEffects(
     RunningEffects running;
     running.samplesEdges = context.view.samplesEdges && !frame.isCameraAtRest;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
-    running.secondRaster =
-        running.lastRaster = {false, "no effect that runs looks anything up in it"};
+    running.secondRaster = running.lastRaster = {false, "no effect that runs needs it"};
     running.layer = {false, "no effect that runs draws one"};
     for (PostEffect* effect : effects) {
         core::Decision decision = effect->decide(facts);

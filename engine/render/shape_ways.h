@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Per-pixel motion images of deforming entities of a raster over the exposure
-// (common/pixel_way.glsl), for effects that look up surfaces in rasters.
+// (common/pixel_way.glsl), for effects with lookups in rasters.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"

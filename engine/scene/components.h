@@ -198,7 +198,7 @@ struct LensOverride {
                                 ///< pinhole
 };
 
-/// Artist's say over one entity and its descendants; the nearest one upwards counts.
+/// Artist's control of one entity and its descendants; the nearest one upwards counts.
 struct MotionBlur {
     double scale = 1.0;   ///< of all its blur on the screen, the camera's part too, [0, 2]
     bool exclude = false; ///< as scale 0: sharp, although the camera moves

@@ -22,9 +22,9 @@ struct SurfaceHit {
 };
 
 /// The nearest surface that is drawn at `seconds` (finite): deformed as it is then, and from its
-/// front unless its material has two sides or it is skinned. Blended surfaces are looked through;
+/// front unless its material has two sides or it is skinned. Blended surfaces are ignored;
 /// masked ones are met where their textures have holes, too. Nothing where the ray meets none.
-/// Looks at all triangles of meshes whose box the ray enters: for a click, not for a picture.
+/// Tests all triangles of meshes whose box the ray enters: for a click, not for a picture.
 [[nodiscard]] std::optional<SurfaceHit>
 castRay(const World& world, const WorldRay& ray, double seconds);
 

@@ -98,7 +98,7 @@ double findExposure(const game::ShotArguments& shot) {
 }
 
 /// Errors at which methods are compared by their time, dB.
-constexpr double kAskedPsnr[] = {35.0, 40.0};
+constexpr double kComparedPsnr[] = {35.0, 40.0};
 /// Measures of a frame that are curves over time.
 constexpr const char* kCurves[] = {"psnr", "ssim", "flip", "hdrFlip", "flicker"};
 
@@ -495,7 +495,7 @@ json describeSequence(
         {"skipped", json::array()}};
     for (const SamplePoint& point : result.plan.points)
         described["measurements"].push_back(describeMeasurement(point, result));
-    for (const double psnr : kAskedPsnr)
+    for (const double psnr : kComparedPsnr)
         described["equalError"].push_back(describeEqualError(psnr, result));
     for (const SkippedMethod& skipped : result.skipped)
         described["skipped"].push_back(

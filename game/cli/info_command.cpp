@@ -157,7 +157,9 @@ void addInfoCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<InfoArguments>();
     command->add_option("scene", arguments->scene, "glTF 2.0 scene");
     command->add_flag(
-        "--allow-outside", arguments->allowOutside, "let the scene read files outside its folder"
+        "--allow-outside",
+        arguments->allowOutside,
+        "allow the scene to read files outside its folder"
     );
     command->add_flag("--devices", arguments->devices, "list the Vulkan devices");
     command->add_flag("--methods", arguments->methods, "list the methods, one per line");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # `shutter film`: draws the frames of a sequence by several processes, each a part of them
-# (`shutter render --part K/N`), on this machine or by Slurm, and then lets one encode the film.
+# (`shutter render --part K/N`), on this machine or by Slurm, and then encodes the film by one.
 set -euo pipefail
 
 shutter=$(dirname "$(readlink -f "$0")")/shutter
@@ -78,29 +78,29 @@ check_arguments() {
 
 # Has `shutter render` check options and files; sets frames, journal and work.
 plan() {
-    local said
-    said=$("$shutter" render "${words[@]}" --part "1/$parts" --dry-run) || exit $?
-    frames=$(sed -n 's/^frames: //p' <<<"$said")
-    journal=$(realpath -m "$(sed -n 's/^journal: //p' <<<"$said")")
-    work=$(realpath -m "$(sed -n 's/^work: //p' <<<"$said")") # of logs, and the ids of jobs
+    local printed
+    printed=$("$shutter" render "${words[@]}" --part "1/$parts" --dry-run) || exit $?
+    frames=$(sed -n 's/^frames: //p' <<<"$printed")
+    journal=$(realpath -m "$(sed -n 's/^journal: //p' <<<"$printed")")
+    work=$(realpath -m "$(sed -n 's/^work: //p' <<<"$printed")") # of logs, and the ids of jobs
     ((parts <= frames)) || parts=$frames
     mkdir -p "$work" || exit 1
 }
 
 # The last sentence of log $1, without the program's name.
 last_sentence() {
-    local said
-    said=$(tail -n 1 "$1" 2>/dev/null || true)
-    printf '%s' "${said#shutter: }"
+    local printed
+    printed=$(tail -n 1 "$1" 2>/dev/null || true)
+    printf '%s' "${printed#shutter: }"
 }
 
-# Says how many frames the parts' journals hold.
+# Prints how many frames the parts' journals hold.
 show_progress() {
     printf '\r%s of %s frames are drawn' \
         "$(cat "$journal".part_* 2>/dev/null | grep -c '"frame"' || true)" "$frames" >&2
 }
 
-# Draws every --jobs-th part from the $1-th on, until one fails anywhere; says why in the file failed.
+# Draws every --jobs-th part from the $1-th on, until one fails anywhere; writes why to the file failed.
 work_here() {
     local part child status device=()
     ((${#devices[@]} == 0)) || device=(--device "${devices[$1 % ${#devices[@]}]}")
@@ -149,13 +149,13 @@ draw_here() {
 
 # Submits a job by sbatch's options and prints its id.
 submit() {
-    local said status=0
-    said=$(sbatch --parsable --job-name="$(basename "$work" .parts)" --chdir="$PWD" --requeue \
+    local printed status=0
+    printed=$(sbatch --parsable --job-name="$(basename "$work" .parts)" --chdir="$PWD" --requeue \
         --open-mode=append "$@" "${sbatch[@]}" 2>"$work/sbatch.log") || status=$?
     ((status == 0)) || fail 1 "sbatch ended with status $status: $(last_sentence "$work/sbatch.log")"
-    said=${said##*$'\n'} said=${said%%;*} # without the name of a cluster
-    [[ $said =~ ^[0-9]+$ ]] || fail 1 "sbatch said '$said' and no job's id"
-    printf '%s' "$said"
+    printed=${printed##*$'\n'} printed=${printed%%;*} # without the name of a cluster
+    [[ $printed =~ ^[0-9]+$ ]] || fail 1 "sbatch printed '$printed' and no job's id"
+    printf '%s' "$printed"
 }
 
 # The words for a shell of any kind.
@@ -184,13 +184,13 @@ submit_film() {
     printf 'job %s: parts 1-%s\njob %s: finishes the film\n' "$array" "$parts" "$finish"
 }
 
-# Whether squeue lists any of the jobs $1, comma-separated. Status 2: it cannot say.
+# Whether squeue lists any of the jobs $1, comma-separated. Status 2: not known.
 are_queued() {
-    local said status=0
-    said=$(squeue --noheader --format=%i --jobs="$1" 2>&1) || status=$?
+    local printed status=0
+    printed=$(squeue --noheader --format=%i --jobs="$1" 2>&1) || status=$?
     if ((status == 0)); then
-        [[ -n $said ]]
-    elif [[ $said == *'Invalid job id'* ]]; then # Slurm forgets jobs some minutes after their end
+        [[ -n $printed ]]
+    elif [[ $printed == *'Invalid job id'* ]]; then # Slurm forgets jobs some minutes after their end
         return 1
     else
         return 2
@@ -199,7 +199,7 @@ are_queued() {
 
 # Waits until the jobs $1 have left the queue, and fails unless the film is finished then.
 follow() {
-    local failures=0 status log said
+    local failures=0 status log printed
     while true; do
         status=0
         are_queued "$1" || status=$?
@@ -212,14 +212,14 @@ follow() {
     done
     [[ ! -t 2 ]] || printf '\r\033[K' >&2
     [[ -e $work/jobs ]] || return 0
-    said='a job was ended and said nothing'
+    printed='a job was ended and printed nothing'
     for log in "$work"/part_*.log "$work/finish.log"; do
         if [[ $(tail -n 1 "$log" 2>/dev/null) == 'shutter: '* ]]; then
-            said="$(basename "$log" .log | tr _ ' ') says: $(last_sentence "$log")"
+            printed="$(basename "$log" .log | tr _ ' ') reports: $(last_sentence "$log")"
             break
         fi
     done
-    fail 1 "the film is not finished: $said; the same command goes on where it stopped"
+    fail 1 "the film is not finished: $printed; the same command goes on where it stopped"
 }
 
 draw_by_slurm() {

@@ -25,7 +25,7 @@ using A = ShotArguments;
 constexpr std::array kSceneRows = {
     makeRow<&A::allowOutside>(
         "--allow-outside",
-        "let the scene read, and a script write, files outside its folder",
+        "allow the scene to read, and a script to write, files outside its folder",
         Matters::ToNoPicture // files count by their contents
     ),
     makeRow<&A::camera>(

@@ -71,7 +71,7 @@ core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& setting
             "host {}",
             frame.name,
             method.name,
-            frame.reveal == DumpedReveal::Tables ? "let Shutter trace its own scene tables"
+            frame.reveal == DumpedReveal::Tables ? "have Shutter trace its own scene tables"
                                                  : fmt::format("ran {}", dumped)
         );
     if (method.readsInstantMotions && !frame.hasMotion)
@@ -347,7 +347,7 @@ class Player {
                                       : ", motion and depth made of the host's own",
             yes(frame.motion.followsLast && settings.history &&
                     settings.method->readsInstantMotions,
-                ", looks up the frame before"),
+                ", looks up the previous frame"),
             yes(frame.motion.lens.isOpen() && settings.method->readsLens, ", through a lens")
         );
         for (const auto& row : motion_blur::listSettingRows()) {

@@ -62,7 +62,7 @@ struct PictureRequest {
     uint32_t raysBefore = 0;
     /// While the blur's pipelines are still being created: wait for them, or use another method.
     motion_blur::UntilReady untilReady = motion_blur::UntilReady::Wait;
-    /// Draws the previous frames first for a method that looks up surfaces in the last one, and for
+    /// Draws the previous frames first for a method with lookups in the last one, and for
     /// AntiAliasing::Taa, unless the slot drew the last one already. Only their history is drawn:
     /// no blur, rays or second raster. False: sample places in the pixel follow the order of
     /// drawing.
@@ -175,7 +175,7 @@ class PictureDrawer {
         render::FrameResult result;
         std::vector<render::WrittenImage> trace; ///< of the picture's frames so far
         uint32_t tracedFrames = 0;
-        std::optional<Drawn> drawn; ///< last, where the next frame may look it up
+        std::optional<Drawn> drawn; ///< last, where the next frame may read it
         int64_t jitteredCount = 0;  ///< of frames whose places in the pixel follow one another
         /// render::kBrightest of the last picture that is finished, where it was measured.
         std::optional<float> brightest;
@@ -190,7 +190,7 @@ class PictureDrawer {
         /// Of PictureRequest::exposureParts; null: the whole exposure.
         const extract::ExposurePart* exposure = nullptr;
         bool isFirstOfExposure = true;
-        bool isLastOfExposure = true; ///< the one in which the next frame looks up surfaces
+        bool isLastOfExposure = true; ///< the one that the next frame reads
     };
 
     /// A submitted frame: what to do with it when it is finished.

@@ -106,7 +106,7 @@ core::Decision Bloom::decide(const render::ViewFacts& facts) const {
     if (countLevels(facts.width, facts.height) == 0)
         return {false, "the picture is too small"};
     if (!facts.lastBrightest)
-        return {true, "the lens scatters light, and no picture before says how much there is"};
+        return {true, "the lens scatters light, and no previous picture shows how much there is"};
     const float start = findKneeStart(mSettings);
     if (*facts.lastBrightest <= start)
         return {

@@ -57,7 +57,7 @@ const std::vector<View>& views() {
          nullptr,
          "mesh_id"},
         showColor("particles", "particles alone, before black"),
-        showColor("last", "the last frame's raster, which this one is looked up in"),
+        showColor("last", "the last frame's raster, for this one's lookups"),
         showColor("second", "the raster at the other end of the exposure"),
         showMotion("tile_max", "longest motion of each tile, coloured as motion"),
         showMotion("tiles", "dominant motion of each tile's neighbourhood, coloured as motion"),

@@ -47,7 +47,7 @@ class BudgetLadder {
 /// That share of the samples, but as many as it takes to blur at all.
 [[nodiscard]] uint32_t shareOfSamples(uint32_t samples, double share);
 
-/// Adds the levels of a method that looks up samples: no second raster, fewer instants, then each
+/// Adds the levels of a method with lookups: no second raster, fewer instants, then each
 /// pixel's own motion alone. \param cost of the level before
 void addLookupLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
 

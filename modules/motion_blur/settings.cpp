@@ -42,8 +42,8 @@ std::vector<Row> makeTapRows() {
          &S::neighbourhoodTiles,
          "tiles",
          {.lowest = 1, .highest = 15, .step = 2},
-         "Side of the square of tiles whose longest motion is the dominant one. 1 lets "
-         "blur end at tile borders.",
+         "Side of the square of tiles whose longest motion is the dominant one. With 1 "
+         "blur ends at tile borders.",
          "Neighbourhood"},
         {"jitter",
          &S::jitter,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces the samples with the largest expected error, each at its time through the moving scene,
-// within the frame's ray budget; looks up the pixel's other samples again.
+// within the frame's ray budget; repeats the pixel's other lookups.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

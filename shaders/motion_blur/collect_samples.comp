@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform Push {
 #include "motion_blur/resolved_rays.glsl"
 
 layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 24, scalar) readonly buffer AskedSamples { SampleHeader uHeader; };
+layout(binding = 24, scalar) readonly buffer RequestedSamples { SampleHeader uHeader; };
 layout(binding = 25, scalar) readonly buffer Answers { vec4 uAnswers[]; };
 layout(binding = 26, scalar) readonly buffer FirstSamples { uint uFirst[]; };
 

@@ -9,12 +9,12 @@ SHUTTER_SHADER_BEGIN
 
 struct SampleHeader {
     uint listed;   // samples in the list
-    uint asking;   // the same, with those that found no place
+    uint wanted;   // the same, with those that found no place
     uint capacity; // of the list
     uint padding0;
 };
 
-struct AskedSample {
+struct RequestedSample {
     uint pixel; // x | y << 16
     float time; // shutter time, [0, 1]
 };
@@ -25,7 +25,7 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::SampleHeader) == 16);
-static_assert(sizeof(shutter::shader::AskedSample) == 8);
+static_assert(sizeof(shutter::shader::RequestedSample) == 8);
 #endif
 
 #endif

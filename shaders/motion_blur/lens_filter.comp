@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Averages out what differs between neighbouring pixels only because each sees through places of the lens
-// of its own. A pixel that has a radius says it by an alpha of its negative (resolved_lens.glsl); the
+// of its own. A pixel that has a radius has its negative as alpha (resolved_lens.glsl); the
 // others come through as they are.
 #version 460
 #extension GL_GOOGLE_include_directive : require

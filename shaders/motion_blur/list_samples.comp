@@ -18,9 +18,9 @@ layout(push_constant, scalar) uniform Push {
 #include "motion_blur/resolved_rays.glsl"
 
 layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 24, scalar) buffer AskedSamples {
+layout(binding = 24, scalar) buffer RequestedSamples {
     SampleHeader uHeader;
-    AskedSample uAsked[];
+    RequestedSample uRequested[];
 };
 layout(binding = 25, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
 /// Where each listed pixel's samples begin in the list; kNoSamples: it requests none.
@@ -33,7 +33,7 @@ const uint kMaxChunks = 8u; // of 32 samples
 
 /// Takes room for `count` samples. \return where they begin, which may lie past the list's end
 uint takeRoom(uint count) {
-    uint first = atomicAdd(uHeader.asking, count);
+    uint first = atomicAdd(uHeader.wanted, count);
     uint end = min(first + count, uHeader.capacity);
     if (first >= end) return first;
     atomicMax(uHeader.listed, end);
@@ -71,7 +71,7 @@ void main() {
         for (uint left = traced[chunk]; left != 0u && slot < uHeader.capacity; left &= left - 1u) {
             uint taken = chunk * 32u + uint(findLSB(left));
             uint instant = instantOf(search, taken);
-            uAsked[slot] = AskedSample(entry.x, timeOf(motions, instant));
+            uRequested[slot] = RequestedSample(entry.x, timeOf(motions, instant));
             if (kHasLens) uPlaces[slot] = LensPlaceTable(motions.value.lensPlaces).places[instant];
             uAnswers[slot] = vec4(0.0f);
             ++slot;

@@ -235,8 +235,8 @@ PlaneMap lookAt(
     return map;
 }
 
-/// \return whether this frame's raster shows the candidate where the block would see it, as far as the
-/// keys of blocks say
+/// \return whether this frame's raster shows the candidate where the block would see it, by the
+/// keys of blocks
 bool isShown(
     ivec2 block, Candidate candidate, InstantMotion motion, uint instant, bool perspective
 ) {

@@ -138,7 +138,7 @@ TEST_F(CliCompare, AlphaCountsAndAPictureWithoutIsOpaque) {
         << text;
 }
 
-TEST_F(CliCompare, ChannelsBesideTheColourAreComparedOrTold) {
+TEST_F(CliCompare, ChannelsBesidesTheColourAreComparedOrNamed) {
     const std::vector<std::string> names = {"R", "G", "B", "Z", "motion.x"};
     writePicture("a.exr", 16, 5, 0.5f, names);
     writeChanged("b.exr", "a.exr", 3, 7.0f);
@@ -192,7 +192,7 @@ TEST_F(CliCompare, ValuesOfAnySizeAreCompared) {
     EXPECT_EQ(text.find("inf"), std::string::npos) << text;
 }
 
-TEST_F(CliCompare, LightThatADisplayCutsOffIsTold) {
+TEST_F(CliCompare, LightThatADisplayClipsIsReported) {
     writePicture("a.exr", 16, 3, 5.0f);
     writePicture("b.exr", 16, 3, 50.0f);
     const auto json = compareAsJson({"a.exr", "b.exr", "--tonemap", "none"});
@@ -243,7 +243,7 @@ TEST_F(CliCompare, CropsOfOtherPlacesAreNotOnePicture) {
     expectRefusal({"compare", "shifted.exr", "shifted.exr"}, kFailed, {"no pixels in its display"});
 }
 
-TEST_F(CliCompare, PixelsAroundTheDisplayWindowAreLeftOutAndTold) {
+TEST_F(CliCompare, PixelsAroundTheDisplayWindowAreLeftOutAndReported) {
     writePicture("inner.exr", 8, 3, 0.5f);
     writeInDisplay("around.exr", {4, 4, 11, 11});
     const auto json = compareAsJson({"around.exr", "inner.exr"});
@@ -257,7 +257,7 @@ TEST_F(CliCompare, PixelsAroundTheDisplayWindowAreLeftOutAndTold) {
     );
 }
 
-TEST_F(CliCompare, PixelsOfAnotherShapeAreTold) {
+TEST_F(CliCompare, PixelsOfAnotherShapeAreReported) {
     writePicture("square.exr", 16, 3, 0.5f);
     std::string wide = readFile("square.exr");
     const std::string attribute("pixelAspectRatio\0float\0\4\0\0\0", 27);

@@ -63,7 +63,7 @@ TEST_F(Cli, AnEnvironmentThatIsPartOfAPictureOrNoColourIsRefused) {
         );
 }
 
-TEST_F(Cli, AnEnvironmentIsItsDisplayWindowAndTellsOfChannelsItLeavesOut) {
+TEST_F(Cli, AnEnvironmentIsItsDisplayWindowAndChannelsLeftOutAreReported) {
     requireDevice();
     // A bright frame of a pixel around a grey picture, outside of the display window.
     image::Image picture(66, 34, 4);

@@ -11,7 +11,7 @@
 
 namespace shutter::cli {
 
-/// Programs of Slurm, first on PATH, that record their arguments in the file `said`.
+/// Programs of Slurm, first on PATH, that record their arguments in the file `calls`.
 class FakeSlurm {
   public:
     explicit FakeSlurm(std::filesystem::path folder) : mFolder(std::move(folder)) {
@@ -35,7 +35,7 @@ class FakeSlurm {
         std::ofstream(file) << fmt::format(
             "#!/bin/sh\nprintf '%s\\n' {} \"$@\" >> '{}'\n{}",
             name,
-            (mFolder / "said").string(),
+            (mFolder / "calls").string(),
             body
         );
         std::filesystem::permissions(file, std::filesystem::perms::owner_all);

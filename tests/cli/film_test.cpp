@@ -111,9 +111,9 @@ TEST_F(Film, AFilmDrawnInPartsEqualsThatOfOneProcess) {
     EXPECT_GT(frames.size(), 1u) << "it moves";
     Arguments one = draw("render", "one.png", {"--explain"});
     one[9] = "9:9";
-    const std::string said = expectSuccess(one).out;
+    const std::string printed = expectSuccess(one).out;
     for (const char* work : {"blended instants", "particles live in its exposure"})
-        EXPECT_NE(said.find(work), std::string::npos) << said;
+        EXPECT_NE(printed.find(work), std::string::npos) << printed;
     // Nothing of the parts is left, and both commands know the complete frames.
     EXPECT_FALSE(fs::exists(path("parts.mp4.parts")));
     for (const std::string& file : listFiles())
@@ -203,7 +203,7 @@ class FilmBySlurm : public Film {
     FakeSlurm mSlurm{path("")};
 };
 
-TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsAreTold) {
+TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsArePrinted) {
     mSlurm.writeProgram(
         "sbatch", "case \"$*\" in *--array*) echo '7;cluster';; *) echo 8;; esac\n"
     );
@@ -215,21 +215,21 @@ TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsAreTold) {
         {"--slurm", "--parts", "3", "--sbatch", "partition=films", "--sbatch", "--time=60"}
     );
     EXPECT_EQ(expectSuccess(film).out, "job 7: parts 1-3\njob 8: finishes the film\n");
-    const std::string said = readFile("said");
-    const size_t second = said.find("sbatch\n", 1);
-    ASSERT_NE(second, std::string::npos) << said;
+    const std::string printed = readFile("calls");
+    const size_t second = printed.find("sbatch\n", 1);
+    ASSERT_NE(second, std::string::npos) << printed;
     for (const char* both : {"\n--partition=films\n", "\n--time=60\n", "\n--requeue\n"}) {
-        EXPECT_LT(said.find(both), second) << both;
-        EXPECT_NE(said.find(both, second), std::string::npos) << both;
+        EXPECT_LT(printed.find(both), second) << both;
+        EXPECT_NE(printed.find(both, second), std::string::npos) << both;
     }
-    EXPECT_LT(said.find("\n--array=1-3\n"), second);
-    EXPECT_NE(said.find("\n--dependency=afterok:7\n", second), std::string::npos);
+    EXPECT_LT(printed.find("\n--array=1-3\n"), second);
+    EXPECT_NE(printed.find("\n--dependency=afterok:7\n", second), std::string::npos);
     // The jobs run the requested command in any shell.
     EXPECT_NE(
-        said.find("'--out' 'it'\\''s f_%d.exr' '--device' 'llvmpipe'  --part "
-                  "$SLURM_ARRAY_TASK_ID/3\n"),
+        printed.find("'--out' 'it'\\''s f_%d.exr' '--device' 'llvmpipe'  --part "
+                     "$SLURM_ARRAY_TASK_ID/3\n"),
         std::string::npos
-    ) << said;
+    ) << printed;
     EXPECT_EQ(readFile(".it's f_%d.exr.parts/jobs"), "7 8\n");
 }
 
@@ -244,7 +244,7 @@ TEST_F(FilmBySlurm, PartsWhoseFilmCannotBeFinishedAreCancelled) {
     const Outcome outcome = run(draw("film", "f_%d.exr", {"--slurm", "--parts", "3"}));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.err, "shutter: sbatch ended with status 1: sbatch: error: no more jobs\n");
-    EXPECT_TRUE(readFile("said").ends_with("scancel\n7\n")) << readFile("said");
+    EXPECT_TRUE(readFile("calls").ends_with("scancel\n7\n")) << readFile("calls");
 }
 
 TEST_F(Film, ContradictionsAreRefusedBeforeAnythingIsWritten) {

@@ -193,7 +193,7 @@ TEST_F(CliRender, EveryMethodGivesTheIntermediatesItHas) {
     EXPECT_FALSE(listFiles().contains("g.mask.exr"));
 }
 
-TEST_F(CliRender, AnIntermediateOfABlurThatDidNotRunIsSaidToBeMissing) {
+TEST_F(CliRender, AnIntermediateOfABlurThatDidNotRunIsReportedMissing) {
     const Outcome outcome =
         run(renderVase({"--method", "hybrid", "--exposure", "0", "--out", "a.png", "--aov", "mask"})
         );
@@ -286,13 +286,13 @@ TEST_F(CliRender, APictureOfOnePixelIsDrawnByEveryMethod) {
     }
 }
 
-TEST_F(CliRender, TheRenderGraphIsPrintedWhereAskedFor) {
+TEST_F(CliRender, TheRenderGraphIsPrintedOnRequest) {
     const std::string out = expectSuccess(renderVase({"--out", "a.png", "--dump-graph"})).out;
     for (const char* pass : {"G-buffer", "resolve", "tone map"})
         EXPECT_NE(out.find(pass), std::string::npos) << pass;
 }
 
-TEST_F(CliRender, EveryEffectAndPassIsExplainedWhereAskedFor) {
+TEST_F(CliRender, EveryEffectAndPassIsExplainedOnRequest) {
     const std::string ran =
         expectSuccess(renderVase({"--method", "hybrid", "--out", "a.png", "--explain"})).out;
     for (const char* line :

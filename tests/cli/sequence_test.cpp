@@ -64,7 +64,7 @@ class Sequence : public Cli {
 
 } // namespace
 
-TEST_F(Sequence, AMethodWithoutALensSaysThatItDrawsAPinhole) {
+TEST_F(Sequence, AMethodWithoutALensReportsThatItDrawsAPinhole) {
     const auto write = [&](const std::string& lens) {
         writeFile(
             "flight.json",
@@ -262,7 +262,7 @@ TEST_F(Sequence, ChangedOptionsRedrawAllFramesWithAMessage) {
     EXPECT_NE(changed.out.find("drawn otherwise"), std::string::npos) << changed.out;
 }
 
-TEST_F(Sequence, ACameraMadeToFitFitsWhenItIsTold) {
+TEST_F(Sequence, ACameraMadeToFitFitsWhenRequested) {
     writeFile("drifting.gltf", kDriftingScene);
     const auto draw = [&](const Arguments& more) {
         Arguments arguments = {"render", "drifting.gltf", "--size", "64x36", "--method", "sharp"};
@@ -278,8 +278,8 @@ TEST_F(Sequence, ACameraMadeToFitFitsWhenItIsTold) {
     // A frame that another camera drew is drawn again.
     draw({"--fps", "2", "--frames", "1:2", "--out", "f_%d.png"});
     const std::string own = readFile("f_2.png");
-    const std::string said = draw({"--fps", "2", "--frames", "0:2", "--out", "f_%d.png"});
-    EXPECT_NE(said.find("drawn otherwise"), std::string::npos) << said;
+    const std::string printed = draw({"--fps", "2", "--frames", "0:2", "--out", "f_%d.png"});
+    EXPECT_NE(printed.find("drawn otherwise"), std::string::npos) << printed;
     EXPECT_TRUE(readFile("f_2.png") != own);
     EXPECT_TRUE(readFile("f_2.png") == readFile("other.png"));
 }

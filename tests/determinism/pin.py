@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Pins what every method writes on this machine's driver; README.md says when.
+"""Pins what every method writes on this machine's driver; README.md explains when.
 
 usage: pin.py EXECUTABLE ASSETS
 Each method is drawn several times, with main memory that holds something else before it is written

@@ -23,7 +23,7 @@ class Pinned(unittest.TestCase):
             with self.subTest(method=method):
                 found = traces.draw(EXECUTABLE, ASSETS, method)["images"]
                 self.assertEqual(traces.hash_all(found), expected,
-                                 "README.md says how to find the pass that differs")
+                                 "README.md explains how to find the pass that differs")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ NEED_RAYS = ("hybrid", "adaptive", "denoised", "truth")
 
 
 def describe_processor():
-    """Name and a digest of all that a compiler asks of it: software drivers compile for it."""
+    """Name and a digest of all that a compiler depends on: software drivers compile for it."""
     wanted = ("vendor_id", "cpu family", "model", "model name", "flags", "Features")
     found = {}
     cpuinfo = pathlib.Path("/proc/cpuinfo")

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAX_PAGES = 10
 # Two screens.
 MAX_LINES = 120
-# Written by scripts/figures.py: tables to look things up in, as many as there are suites.
+# Written by scripts/figures.py: tables, as many as there are suites.
 GENERATED = "docs/figures.md"
 LIST = "docs/measuring.md"
 LIST_HEADING = "numbers"

@@ -32,7 +32,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     return result;
 }
 
-/// What the program asked the device to check.
+/// What the program enabled the device to check.
 void noteBounds(const VkDeviceCreateInfo& info, DeviceTable& table) {
     for (auto* next = static_cast<const VkBaseInStructure*>(info.pNext); next; next = next->pNext) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2)

@@ -80,12 +80,12 @@ void reportTypes(VkMemoryRequirements& needs) {
 }
 
 /// Replaces a function that returns an object's allowed memory types.
-template <auto next> struct AskNeeds;
+template <auto next> struct QueryNeeds;
 
 template <
     class Object,
     void (VKAPI_PTR* DeviceTable::*next)(VkDevice, Object, VkMemoryRequirements*)>
-struct AskNeeds<next> {
+struct QueryNeeds<next> {
     static VKAPI_ATTR void VKAPI_CALL
     call(VkDevice device, Object object, VkMemoryRequirements* needs) {
         (findDevice(device).*next)(device, object, needs);
@@ -94,7 +94,7 @@ struct AskNeeds<next> {
 };
 
 template <class Info, void (VKAPI_PTR* DeviceTable::*next)(VkDevice, Info, VkMemoryRequirements2*)>
-struct AskNeeds<next> {
+struct QueryNeeds<next> {
     static VKAPI_ATTR void VKAPI_CALL
     call(VkDevice device, Info info, VkMemoryRequirements2* needs) {
         (findDevice(device).*next)(device, info, needs);
@@ -105,17 +105,17 @@ struct AskNeeds<next> {
 } // namespace
 
 std::span<const test::LayerEntry> listMemoryFaults() {
-#define SHUTTER_ASK_NEEDS(name) SHUTTER_ENTRY(name, AskNeeds<&DeviceTable::name>::call)
+#define SHUTTER_QUERY_NEEDS(name) SHUTTER_ENTRY(name, QueryNeeds<&DeviceTable::name>::call)
     static const std::array sEntries{
         SHUTTER_ENTRY(AllocateMemory, allocateMemory),
         SHUTTER_ENTRY(FreeMemory, freeMemory),
         SHUTTER_ENTRY(MapMemory, mapMemory),
-        SHUTTER_ASK_NEEDS(GetBufferMemoryRequirements),
-        SHUTTER_ASK_NEEDS(GetBufferMemoryRequirements2),
-        SHUTTER_ASK_NEEDS(GetImageMemoryRequirements),
-        SHUTTER_ASK_NEEDS(GetImageMemoryRequirements2),
+        SHUTTER_QUERY_NEEDS(GetBufferMemoryRequirements),
+        SHUTTER_QUERY_NEEDS(GetBufferMemoryRequirements2),
+        SHUTTER_QUERY_NEEDS(GetImageMemoryRequirements),
+        SHUTTER_QUERY_NEEDS(GetImageMemoryRequirements2),
     };
-#undef SHUTTER_ASK_NEEDS
+#undef SHUTTER_QUERY_NEEDS
     return sEntries;
 }
 

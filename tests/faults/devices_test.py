@@ -125,8 +125,8 @@ class Devices(FaultCase):
                 self.assertEqual(self.list_files(), set())
 
     def test_a_driver_that_brings_vulkan_to_another_interface_is_used(self):
-        # What MoltenVK's manifest says of itself, said of the software device: loaders hide it from
-        # programs that do not ask for such drivers.
+        # What MoltenVK's manifest declares, declared of the software device: loaders hide it from
+        # programs that do not request such drivers.
         manifests = [pathlib.Path(file) for file in self.find_manifests()]
         if not manifests:
             self.skipTest("no manifest of lavapipe was found")

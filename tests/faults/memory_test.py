@@ -23,7 +23,7 @@ class Memory(FaultCase):
         frame = self.render("--out", "a.png")
         self.expect_done(self.run_shutter(frame))
         picture = (self.folder / "a.png").read_bytes()
-        # There are two of each kind that is asked for.
+        # There are two of each requested kind.
         types = ("local,visible+coherent,visible+coherent+cached,visible+cached,"
                  "local+visible+coherent,local")
         count = self.count_calls(frame)["allocations"]

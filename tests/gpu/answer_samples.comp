@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push {
 };
 layout(binding = 0, scalar) readonly buffer Samples {
     SampleHeader uHeader;
-    AskedSample uAsked[];
+    RequestedSample uRequested[];
 };
 layout(binding = 1, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
 layout(binding = 2) uniform accelerationStructureEXT uScene;
@@ -45,11 +45,11 @@ void moveInLens(inout ShutterRay ray, vec2 centre, vec2 place, float s) {
 void main() {
     uint index = (gl_WorkGroupID.y * 256u + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (index >= uHeader.listed) return;
-    AskedSample asked = uAsked[index];
-    vec2 centre = vec2(asked.pixel & 0xFFFFu, asked.pixel >> 16) + 0.5f;
-    ShutterRay ray = makeShutterRay(FrameRef(frame), TimedRef(timed), centre, asked.time);
-    if (focusDistance > 0.0f) moveInLens(ray, centre, uPlaces[index], asked.time);
+    RequestedSample sought = uRequested[index];
+    vec2 centre = vec2(sought.pixel & 0xFFFFu, sought.pixel >> 16) + 0.5f;
+    ShutterRay ray = makeShutterRay(FrameRef(frame), TimedRef(timed), centre, sought.time);
+    if (focusDistance > 0.0f) moveInLens(ray, centre, uPlaces[index], sought.time);
     DistributedSample seen =
-        traceDistributed(uScene, FrameRef(frame), TimedRef(timed), ray, asked.time);
+        traceDistributed(uScene, FrameRef(frame), TimedRef(timed), ray, sought.time);
     uAnswers[index] = vec4(seen.radiance, focusDistance > 0.0f ? seen.depth : 1.0f);
 }

@@ -189,7 +189,7 @@ Image makeThirds(uint32_t width, uint32_t height) {
     });
 }
 
-TEST_F(BlockLists, EveryBlockIsInTheListThatItsTilesAskFor) {
+TEST_F(BlockLists, EveryBlockIsInTheListThatItsTilesRequire) {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {41u, 39u}, {250u, 90u}})
         for (const uint32_t tile : {1u, 12u, 16u, 40u, 256u}) {
             SCOPED_TRACE(fmt::format("{}x{}, tile {}", width, height, tile));

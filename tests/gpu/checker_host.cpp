@@ -112,7 +112,7 @@ std::vector<uint32_t> findMovers(const CheckedDrawing& drawn) {
 }
 
 /// Takes down which entities the rows of a frame are.
-class RowTeller : public render::PostEffect {
+class RowDescriber : public render::PostEffect {
   public:
     [[nodiscard]] std::string name() const override { return "rows"; }
 
@@ -454,7 +454,7 @@ CheckedDrawing CheckerHost::draw(render::Renderer& renderer, int number, double 
     request.view = game::makeView(mShot->shot, mShot->options, number * kFrameSeconds / 2.0 + 0.03);
     request.view.exposure.open = request.view.exposure.close - frames * kFrameSeconds;
     request.intermediates = {"motion", "mesh_id"};
-    RowTeller describer;
+    RowDescriber describer;
     const std::array<render::PostEffect*, 1> effects{&describer};
     const auto result = renderer.renderFrame(mShot->shot.world, request, effects);
     CheckedDrawing drawn;

@@ -60,7 +60,7 @@ void listConventions(Cases& add) {
     add("without the camera's part", "set vectorsLackCamera = true", [](Given& g) {
         keepObjectsOnly(g);
     });
-    add("with the camera's part, said to be without",
+    add("with the camera's part, declared to be without",
         "set vectorsLackCamera = false",
         [](Given& g) { g.inputs.convention.vectors.lackCamera = true; });
     add("vectors of the frame before", "vectors are those of the frame before", [](Given& g) {
@@ -96,7 +96,7 @@ void listConventions(Cases& add) {
             leaveJitter(g);
             g.jitterPx = g.jitterPxBefore = math::dvec2(0.0);
         });
-    add("jitter said to be left in", "set vectorsHaveJitter = false", [](Given& g) {
+    add("jitter declared to be left in", "set vectorsHaveJitter = false", [](Given& g) {
         declareJitter(g);
         g.inputs.convention.vectors.haveJitter = true;
     });
@@ -124,9 +124,9 @@ void listConventions(Cases& add) {
     add("the sky at the near plane", "set skyValue = 0", [](Given& g) {
         g.inputs.convention.depth.skyValue = 1.0f;
     });
-    add("linear depth said to be raw", "for linear depth set depthIsLinear = true", [](Given& g) {
-        g.depth = g.metres;
-    });
+    add("linear depth declared to be raw",
+        "for linear depth set depthIsLinear = true",
+        [](Given& g) { g.depth = g.metres; });
     add("centimetres", "set metresPerUnit = 0.01", [](Given& g) { storeLinearDepth(g, 100.0f); });
     add("negative depth", "store -z", [](Given& g) { storeLinearDepth(g, -1.0f); });
     add("a depth image that was only cleared", "at every pixel", [](Given& g) {
@@ -238,7 +238,7 @@ void listKeys(Cases& add) {
             key.time = time;
         }
     });
-    add("a raster at the end, said to be in the middle", "set rasterTime = 1", [](Given& g) {
+    add("a raster at the end, declared to be in the middle", "set rasterTime = 1", [](Given& g) {
         g.isResolved = true;
         giveKeysAt(g, {0.0, 0.5, 1.0});
         g.inputs.rasterTime = 0.5;

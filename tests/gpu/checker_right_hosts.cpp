@@ -38,14 +38,14 @@ void listVectors(Cases& add) {
         scaleVectors(g, {-1.0f / kWidth, -1.0f / kHeight});
         g.inputs.convention.vectors.pixelsPerUnit = {-kWidth, -kHeight};
     });
-    add("over the exposure, and said to be",
+    add("over the exposure, and declared to be",
         [](Given& g) { g.inputs.convention.scales.exposureShare = 1.0f; });
     add("scales of the blur", [](Given& g) {
         g.inputs.convention.scales.camera = 0.25f;
         g.inputs.convention.scales.object = 2.0f;
         g.inputs.convention.scales.displayedPerRendered = 2.0f;
     });
-    add("without the camera's part, and said to be", [](Given& g) {
+    add("without the camera's part, and declared to be", [](Given& g) {
         g.inputs.convention.vectors.lackCamera = true;
         keepObjectsOnly(g);
     });
@@ -59,7 +59,7 @@ void listVectors(Cases& add) {
             if (g.metres[i] >= shader::kSkyDepth)
                 g.motion[i] = {};
     });
-    add("jitter left in, and said to be", [](Given& g) {
+    add("jitter left in, and declared to be", [](Given& g) {
         leaveJitter(g);
         g.inputs.convention.vectors.haveJitter = true;
     });

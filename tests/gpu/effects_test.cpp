@@ -250,7 +250,7 @@ TEST_F(Tonemap, EachMapperIsTheOneInCppAndTheExposureValueMultiplies) {
 }
 
 /// What a tone map that is used again and again measures of each picture; nothing where it is not
-/// asked.
+/// requested.
 class BrightestChannel : public Tonemap {
   protected:
     std::optional<double> measure(const image::Image& colors, bool isWanted = true) {

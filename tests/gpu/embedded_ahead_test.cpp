@@ -19,11 +19,11 @@ using motion_blur::HostPlan;
 using motion_blur::MotionBlurSettings;
 
 /// Counts the library's calls of a driver function while it lives: functions are pointers.
-template <auto pointer> class Asked;
+template <auto pointer> class LibraryCalls;
 
-template <class... Args, VkResult(VKAPI_PTR** pointer)(Args...)> class Asked<pointer> {
+template <class... Args, VkResult(VKAPI_PTR** pointer)(Args...)> class LibraryCalls<pointer> {
   public:
-    Asked() {
+    LibraryCalls() {
         sNext = *pointer;
         sCount = 0;
         *pointer = [](Args... args) {
@@ -32,10 +32,10 @@ template <class... Args, VkResult(VKAPI_PTR** pointer)(Args...)> class Asked<poi
         };
     }
 
-    ~Asked() { *pointer = sNext; }
+    ~LibraryCalls() { *pointer = sNext; }
 
-    Asked(const Asked&) = delete;
-    Asked& operator=(const Asked&) = delete;
+    LibraryCalls(const LibraryCalls&) = delete;
+    LibraryCalls& operator=(const LibraryCalls&) = delete;
 
     [[nodiscard]] uint32_t count() const { return sCount; }
 
@@ -240,10 +240,10 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
                 pinhole.motion.lens = {};
                 EXPECT_TRUE(draw(*blur, host, 0, pinhole, plan.settings).ok());
             };
-            const Asked<&vkCreateComputePipelines> pipelines;
+            const LibraryCalls<&vkCreateComputePipelines> pipelines;
             drawFrames(4);
             EXPECT_EQ(pipelines.count(), 0u);
-            const Asked<&vkAllocateMemory> allocations;
+            const LibraryCalls<&vkAllocateMemory> allocations;
             drawFrames(2);
             EXPECT_EQ(allocations.count(), 0u);
         }

@@ -312,7 +312,7 @@ TEST_F(EmbeddedBlended, LayersDrawnPerInstantAreHiddenAndTransparentAtEachInstan
     const double whole = image::computePsnr(draw(inputs), truth);
     EXPECT_EQ(mPane->tasks.size(), 1u);
     const double filtered = image::computePsnr(draw(inputs, "gather"), truth);
-    EXPECT_EQ(mPane->tasks[0].surfaces, VkBuffer{}) << "a filter looks up no instants";
+    EXPECT_EQ(mPane->tasks[0].surfaces, VkBuffer{}) << "a filter has no lookups";
     RecordProperty("parts", std::to_string(parts));
     RecordProperty("whole", std::to_string(whole));
     RecordProperty("filtered", std::to_string(filtered));
@@ -531,12 +531,13 @@ TEST_F(EmbeddedBlended, ReplayGivesTheHostsPicture) {
         const auto bytes = io::readFileBytes(manifest, 1 << 20);
         ASSERT_TRUE(bytes.ok());
         const std::string text(bytes.value().begin(), bytes.value().end());
-        const auto change = [&](const std::string& from, const std::string& to, const char* said) {
+        const auto change = [&](const std::string& from, const std::string& to, const char* wanted
+                            ) {
             std::string changed = text;
             ASSERT_NE(text.find(from), std::string::npos) << from;
             changed.replace(text.find(from), from.size(), to);
             ASSERT_TRUE(io::writeFileText(manifest, changed).ok());
-            test::expectRefusal(replay(dump, "resolved"), said);
+            test::expectRefusal(replay(dump, "resolved"), wanted);
         };
         change("\"parts\": 2", "\"parts\": 5", "parts");
         change("\"instants\": 15", "\"instants\": 0", "instants");

@@ -145,12 +145,12 @@ class EmbeddedDump : public test::EmbeddedTest {
         testing::internal::CaptureStdout();
         const core::Status done = replay::replay(options, device());
         std::fflush(stdout);
-        const std::string said = testing::internal::GetCapturedStdout();
+        const std::string printed = testing::internal::GetCapturedStdout();
         ASSERT_TRUE(done.ok()) << done.error().message;
         size_t same = 0;
-        for (size_t at = 0; (at = said.find("bit for bit", at)) != std::string::npos; ++at)
+        for (size_t at = 0; (at = printed.find("bit for bit", at)) != std::string::npos; ++at)
             ++same;
-        EXPECT_EQ(same, pictures.size()) << said;
+        EXPECT_EQ(same, pictures.size()) << printed;
         for (size_t i = 0; i < pictures.size(); ++i) {
             const fs::path file =
                 mFolder / (pictures.size() > 1 ? fmt::format("replayed_{:04}.exr", i)

@@ -169,7 +169,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
     const PannedFrame* mLent = nullptr;          ///< the previous frame, whose images are lent
 };
 
-TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereThereIsOneAndTheHostSaysSo) {
+TEST_F(EmbeddedHistory, ThePreviousFrameIsLookedUpWhereThereIsOneAndTheHostDeclaresIt) {
     EXPECT_FALSE(looksBack({.brightness = 4.0f})) << "the first frame";
     drawFirst();
     EXPECT_TRUE(looksBack({.brightness = 4.0f}));

@@ -161,9 +161,9 @@ class Scene : public test::SceneBuilder {
 class EmbeddedInstants : public test::EmbeddedTest {
   protected:
     void start(MotionDescriber describer, const MotionBlurSettings& settings = resolved()) {
-        mTeller.emplace(std::move(describer));
+        mDescriber.emplace(std::move(describer));
         mStage.emplace(device(), mScene, describeHost(), settings, settings);
-        mStage->declareMotion(*mTeller);
+        mStage->declareMotion(*mDescriber);
         mStage->shutter.exposureSeconds = mStage->frameSeconds = 0.25;
         mStage->shutter.phase = scene::ShutterPhase::End;
     }
@@ -182,7 +182,7 @@ class EmbeddedInstants : public test::EmbeddedTest {
     /// The plugin draws the raster of the frame before the first one. The host has none.
     void drawFirst() {
         (void)draw(0);
-        mTeller->followsLast = true;
+        mDescriber->followsLast = true;
     }
 
     static uint64_t countFromLast(const StagedFrame& drawn) {
@@ -190,7 +190,7 @@ class EmbeddedInstants : public test::EmbeddedTest {
     }
 
     Scene mScene;
-    std::optional<MotionDescriber> mTeller;
+    std::optional<MotionDescriber> mDescriber;
     std::optional<BlurStage> mStage;
 };
 
@@ -245,7 +245,7 @@ TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
 
 TEST_F(EmbeddedInstants, MoversWithoutTransformsFollowTheirMotionVectors) {
     start(MotionDescriber(0, {0.0, 0.5, 1.0}));
-    mTeller->knowsMovers = false;
+    mDescriber->knowsMovers = false;
     const StagedFrame drawn = draw(0);
     EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 25.0);
     EXPECT_FALSE(test::sameBits(drawn.output, drawn.result.color));

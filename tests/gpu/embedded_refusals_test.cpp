@@ -640,7 +640,7 @@ TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
     inputs = large.inputs();
     inputs.width = inputs.height = kSide;
     inputs.motionDepth = right.inputs().motionDepth;
-    const auto countAsked = [&] {
+    const auto countReports = [&] {
         submit([&](VkCommandBuffer commands) {
             large.recordClears(commands);
             right.recordClears(commands);
@@ -650,12 +650,12 @@ TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
         return countReported("the extent of color, output is not declared");
     };
     createWithMessages(true);
-    EXPECT_EQ(countAsked(), 1u);
-    EXPECT_EQ(countAsked(), 1u) << "once";
+    EXPECT_EQ(countReports(), 1u);
+    EXPECT_EQ(countReports(), 1u) << "once";
     createWithMessages(true);
     inputs.color.extent = inputs.output.extent = {3 * kSide, 2 * kSide};
     inputs.color.area.extent = inputs.output.area.extent = {kSide, kSide};
-    EXPECT_EQ(countAsked(), 0u);
+    EXPECT_EQ(countReports(), 0u);
 }
 
 TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {

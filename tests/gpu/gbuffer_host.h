@@ -68,7 +68,7 @@ class HostOfTheGBuffer : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "host"; }
 
     [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "it is looked at"};
+        return {true, "the test reads it"};
     }
 
     void declare(render::PostContext& context) override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Methods with rays: `hybrid` and `adaptive` with a host's own, the effect's requests and its use
-// of the answers; and ids that have no row in the tables of a host that lets ours be traced.
+// of the answers; and ids that have no row in the tables of a host that has ours traced.
 #include "spirv/answer_samples.comp.h"
 #include "spirv/motion_blur/reveal.comp.h"
 

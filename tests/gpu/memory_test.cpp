@@ -121,7 +121,7 @@ TEST_F(Memory, NonCoherentMemoryIsFlushedAndInvalidated) {
         EXPECT_EQ(copyValues(target), values);
     }
     EXPECT_THROW(gpu::Buffer(*incoherent, "table", 16, 0, gpu::MemoryUse::Stream), gpu::DeviceError)
-        << "no device lacks coherent memory; one that says so gets a sentence";
+        << "no device lacks coherent memory; one without it gets a sentence";
     incoherent->collectIdle();
     EXPECT_EQ(incoherent->living(), gpu::LivingObjects{}) << "what failed leaves nothing behind";
     EXPECT_EQ(incoherent->validationMessageCount(), 0u);
@@ -197,14 +197,14 @@ struct MadePlan {
 
 MadePlan makePlan(graph::TransientPool& pool, uint32_t imageCount, VkDeviceSize bytes) {
     MadePlan made;
-    const auto ask = pool.requirementFunction();
+    const auto findNeeds = pool.requirementFunction();
     for (uint32_t i = 0; i < imageCount; ++i) {
         const graph::TransientImageDesc desc{256, 256, VK_FORMAT_R16G16B16A16_SFLOAT};
         const auto image = made.graph.createImage("image " + std::to_string(i), desc);
         graph::Placement placement;
         placement.resource = image.resource;
         placement.imageUsage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-        const auto needed = ask(desc, placement.imageUsage);
+        const auto needed = findNeeds(desc, placement.imageUsage);
         placement.bytes = needed.bytes;
         placement.offset = made.plan.blockBytes;
         made.plan.blockBytes += needed.bytes;

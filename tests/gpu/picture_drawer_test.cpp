@@ -115,12 +115,12 @@ TEST_F(PictureDrawerTest, BloomFollowsTheHighlightsOfTheLastPictureThatIsFinishe
     bloom::Bloom bloom(device(), {.share = 0.2f, .threshold = 2.0f});
     tonemap::Tonemap tonemap(device(), {});
     game::PictureDrawer drawer(device(), *mRenderer);
-    const auto runsBloom = [&](double seconds, bool isAsked) {
+    const auto runsBloom = [&](double seconds, bool isRequested) {
         game::PictureRequest picture = game::makePicture(
             mShot, mOptions, game::makeMethod(*game::findMethod("sharp").value()), seconds
         );
         picture.frame.wantDisplay = true;
-        picture.frame.wantBrightest = isAsked;
+        picture.frame.wantBrightest = isRequested;
         picture.ending = {&bloom, &tonemap};
         auto drawn = drawer.draw(mShot.world, picture);
         EXPECT_TRUE(drawn.ok());

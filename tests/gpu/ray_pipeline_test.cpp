@@ -11,7 +11,7 @@ namespace {
 
 using math::dvec3;
 
-TEST(BindingTable, GroupsStandApartAsTheDeviceAsks) {
+TEST(BindingTable, GroupsAreAlignedAsTheDeviceRequires) {
     // A device whose handles are tightly packed, one whose are not, and one with a wide base.
     for (const gpu::ShaderGroupLimits& limits :
          {gpu::ShaderGroupLimits{32, 32, 64},

@@ -311,7 +311,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
     }
 }
 
-TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
+TEST_F(ScreenFilters, GuertinsSecondDirectionTakesTapsOnBothSidesOfAStaticPixel) {
     // A red slab above moves up, one below moves down, the part between is static; the dominant
     // motion runs across. At shutter close each slab was over the middle before.
     Scene scene;

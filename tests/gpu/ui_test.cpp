@@ -111,7 +111,7 @@ TEST_F(UiOnWindow, NothingIsDrawnBeyondAClipRectangleOrTheWindowNorWithoutAFrame
     expectRectangle(show(ui), {0, 50, 9, 60}, 1.0f, "clipped by the window");
 }
 
-TEST_F(UiOnWindow, TextHasTheSizeThatItsScaleSays) {
+TEST_F(UiOnWindow, TextHasTheSizeOfItsScale) {
     app::Ui ui(device());
     std::vector<double> coverage;
     for (const double scale : {1.0, 1.5, 2.0, 1.0}) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Runs the program on Mesa's driver for AMD GPUs over a kernel that executes nothing, and reads what the
-driver's compiler says of each pipeline."""
+driver's compiler reports of each pipeline."""
 
 import glob
 import json

@@ -45,7 +45,7 @@ TEST(Culling, AChainThatEndsNowhereIsCulledAsAWhole) {
 TEST(Culling, APassThatOnlyReadsIsCulled) {
     Graph graph;
     const ImageHandle a = store(graph, "draw", makeImage(graph, "a"));
-    addPass(graph, "look", PassKind::Compute, [&](PassBuilder& builder) {
+    addPass(graph, "show", PassKind::Compute, [&](PassBuilder& builder) {
         builder.read(a, Access::SampledCompute);
     });
     const Plan plan = mustCompile(graph);
@@ -213,7 +213,7 @@ TEST(Alias, ASampledDepthTargetHasBothUsages) {
     EXPECT_EQ(placementOf(mustCompile(graph), depth).imageUsage, wanted);
 }
 
-TEST(Alias, ABufferHasTheUsageItAsksForAndTheOneItsPassesNeed) {
+TEST(Alias, ABufferHasTheUsageItRequestsAndTheOneItsPassesNeed) {
     Graph graph;
     BufferHandle arguments =
         graph.createBuffer("arguments", {0, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT});
@@ -329,7 +329,7 @@ image memory: 3072 bytes, 3072 without sharing
 TEST(Dump, ABarrierThatOnlyWaitsIsMarked) {
     Graph graph;
     const ImageHandle v1 = store(graph, "one", makeImage(graph, "a"));
-    addPass(graph, "look", PassKind::Compute, [&](PassBuilder& builder) {
+    addPass(graph, "show", PassKind::Compute, [&](PassBuilder& builder) {
         builder.read(v1, Access::StorageRead);
         builder.sideEffect();
     });
@@ -337,7 +337,7 @@ TEST(Dump, ABarrierThatOnlyWaitsIsMarked) {
     const std::string text = dump(graph, mustCompile(graph));
     EXPECT_NE(text.find("barrier 'a' compute -> compute, execution only\n"), std::string::npos)
         << text;
-    EXPECT_NE(text.find("'look' (compute, side effect)"), std::string::npos) << text;
+    EXPECT_NE(text.find("'show' (compute, side effect)"), std::string::npos) << text;
 }
 
 TEST(Dump, ARayTracingLaunchIsMarked) {

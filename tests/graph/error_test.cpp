@@ -60,7 +60,7 @@ TEST(GraphError, AnOverwrittenOutputIsRefused) {
     const ImageHandle v1 = store(graph, "draw", makeImage(graph, "color"));
     const ImageHandle v2 = store(graph, "smear", v1);
     graph.markOutput(v1);
-    sample(graph, "look", v2);
+    sample(graph, "show", v2);
     EXPECT_EQ(
         errorOf(graph), "output 'color' is overwritten by pass 'smear' before the frame ends"
     );
@@ -236,7 +236,7 @@ TEST(GraphError, TheHostCannotReadATransient) {
     });
     EXPECT_EQ(
         errorOf(graph),
-        "pass 'print' lets the host read 'counts', which is transient and not mapped"
+        "pass 'print' makes the host read 'counts', which is transient and not mapped"
     );
 }
 
@@ -251,7 +251,7 @@ TEST(GraphError, TheHostCannotReadWhatIsOverwrittenLater) {
         buffer = builder.write(buffer, Access::StorageWrite);
     });
     EXPECT_EQ(
-        errorOf(graph), "pass 'print' lets the host read 'counts', but pass 'count' overwrites it"
+        errorOf(graph), "pass 'print' makes the host read 'counts', but pass 'count' overwrites it"
     );
 }
 

@@ -255,7 +255,7 @@ class Simulator {
         simple.transition = barrier.oldLayout != barrier.newLayout;
         simple.drops = barrier.oldLayout == VK_IMAGE_LAYOUT_UNDEFINED;
         if (!simple.drops && mLayouts[barrier.resource] != barrier.oldLayout)
-            report(barrier.resource, "is in another layout than its barrier says");
+            report(barrier.resource, "is in another layout than its barrier has");
         for (Cell* cell : cellsOf(barrier.resource))
             if (!applyBarrier(*cell, simple) && simple.transition)
                 report(barrier.resource, "is moved to a layout while still in use");

@@ -273,7 +273,7 @@ template <class Check> void forEachFrame(Check&& check) {
         if (testing::Test::HasFailure())
             return; // one failing seed is enough
     }
-    EXPECT_GT(compiled, kSeedCount / 2) << "most frames should say something";
+    EXPECT_GT(compiled, kSeedCount / 2) << "most frames should compile";
 }
 
 TEST(RandomGraphs, TheOrderRespectsEveryDependence) {

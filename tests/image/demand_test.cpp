@@ -123,7 +123,7 @@ TEST_F(DemandLaw, UnusedResourcesAreFreedAfterAWhile) {
     EXPECT_GT(frames.draw(frameShot("hybrid")).statistics.counters.at("rays traced"), 0u);
 }
 
-TEST_F(DemandLaw, ATooSmallBudgetEndsWithTheCheapestBlurAndSaysSo) {
+TEST_F(DemandLaw, ATooSmallBudgetEndsWithTheCheapestBlurAndAReport) {
     const SceneBuilder scene = makeCrossing();
     const Shot shot = frameShot("gather");
     motion_blur::MotionBlurSettings settings = shot.settings;
@@ -187,7 +187,7 @@ TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
     }
 }
 
-TEST_F(DemandLaw, HalfOfTheResolutionAlongAPanIsHardToTellAndForSmearsAlongRowsAndColumnsAlone) {
+TEST_F(DemandLaw, HalfOfTheResolutionAlongAPanIsHardToSeeAndForSmearsAlongRowsAndColumnsAlone) {
     const auto pan = [](const math::dvec3& velocityPx) {
         SceneBuilder scene;
         scene.setPixelView(120);

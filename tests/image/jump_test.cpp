@@ -468,7 +468,7 @@ TEST_F(JumpInMotion, AMoverThatJumpsIsBlurredInBothPlaces) {
         EXPECT_GT(nearness(method), 28.0) << method;
 }
 
-TEST_F(JumpInMotion, ThePictureSaysThatItWasDrawnInParts) {
+TEST_F(JumpInMotion, ThePictureReportsThatItWasDrawnInParts) {
     test::Stage stage(device(), mScene);
     const auto frame = stage.render(shotOfMotion("resolved"));
     EXPECT_EQ(frame.statistics.counters.at("exposure parts"), 2u);

@@ -259,7 +259,7 @@ TEST_F(LensTruthLaw, RaysFollowALensThatIsFocusedStoppedDownAndZoomed) {
     EXPECT_GE(image::computePsnr(rays, stage.render(shot).color), 55.0);
 }
 
-TEST_F(LensTruthLaw, AdaptiveTracesThroughThePlacesOfTheLensThatResolvedLooksThrough) {
+TEST_F(LensTruthLaw, AdaptiveTracesThroughTheSamePlacesOfTheLensAsResolved) {
     const SceneBuilder scene = makeRoom({.fStop = 0.2, .focusDistance = 5.0}, true);
     Stage stage(device(), scene);
     Shot shot{

@@ -172,7 +172,7 @@ TEST_F(ShadowLaw, SpotAndPointLightsCastShadows) {
     }
 }
 
-TEST_F(ShadowLaw, HolesOfAlphaMasksLetLightThroughAsRaysDo) {
+TEST_F(ShadowLaw, LightPassesHolesOfAlphaMasksAsRaysDo) {
     SceneBuilder scene = makeFloor({.position = {0, 100, 0}});
     const auto holes = scene.addWaves(true);
     scene.add(test::makeQuad(2.0, 2.0, holes), {.position = {0.2, 1.0, 0}, .rotation = kFlat});
@@ -367,7 +367,7 @@ TEST_F(EnvironmentLaw, AUniformEnvironmentEqualsBackgroundAndAmbientLight) {
     }
 }
 
-TEST_F(EnvironmentLaw, EachDirectionIsWhereTheCameraLooks) {
+TEST_F(EnvironmentLaw, EachDirectionIsWhereTheCameraPoints) {
     SceneBuilder scene;
     scene.setPerspective(0.4);
     scene.world.assets.environment = makeEnvironment(smoothWaves);

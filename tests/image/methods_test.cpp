@@ -180,7 +180,7 @@ class Drawer : public test::Frames {
             .exposureSeconds = 0.5,
             .frameSeconds = kFrameSeconds,
             .settings = settings};
-        // The previous frame exists for methods that look up surfaces in it.
+        // The previous frame exists for methods with lookups in it.
         if (settings.method->readsInstantMotions) {
             shot.seconds = -kFrameSeconds;
             (void)draw(shot);

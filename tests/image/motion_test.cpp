@@ -384,7 +384,7 @@ TEST_F(ZoomLaw, MotionVectorsAreRadialAtEveryDepthAndInTheSky) {
             ASSERT_NEAR(motion.at(x, y, 1), place.y * stretch, tolerance) << x << " " << y;
             ids.insert(drawn.intermediates.at("mesh_id").at(x, y, 0));
         }
-    EXPECT_EQ(ids.size(), 3u) << "both quads and the sky were looked at";
+    EXPECT_EQ(ids.size(), 3u) << "both quads and the sky were seen";
 }
 
 TEST_F(ZoomLaw, ACutOfThePathAlsoCutsTheLens) {

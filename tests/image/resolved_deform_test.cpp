@@ -386,7 +386,7 @@ SceneBuilder makeScissors() {
     return scene;
 }
 
-TEST_F(ResolvedDeform, BlocksThatLookWithoutASearchSeeWhatASearchFinds) {
+TEST_F(ResolvedDeform, BlocksWithoutASearchHaveWhatASearchFinds) {
     const SceneBuilder scene = makeScissors();
     Shot searched = shotOf("resolved");
     searched.settings.uniformMotionPx = 0.0f;

@@ -76,7 +76,7 @@ class HistoryFrames : public test::Frames {
     }
 };
 
-/// 0 where nothing moves and so nothing is looked up.
+/// 0 where nothing moves.
 uint64_t countFromLast(const render::FrameResult& frame) {
     const auto& counters = frame.statistics.counters;
     const auto found = counters.find("samples from the last frame");
@@ -107,7 +107,7 @@ class ResolvedHistory : public test::GpuTest {
     }
 };
 
-TEST_F(ResolvedHistory, TheFrameBeforeIsLookedUp) {
+TEST_F(ResolvedHistory, ThePreviousFrameIsLookedUp) {
     Scene scene;
     HistoryFrames frames(device(), scene);
     (void)frames.at(-1);
@@ -200,7 +200,7 @@ TEST_F(ResolvedHistory, AFrameThatIsDrawnAgainFindsTheSameAgain) {
     (void)frames.at(-1);
     const auto first = frames.at(0);
     EXPECT_GT(countFromLast(first), 0u);
-    // As while time stands still: nothing is drawn for it, however long.
+    // As while time is paused: nothing is drawn for it, however long.
     for (int i = 0; i < 3; ++i) {
         const auto again = frames.at(0);
         EXPECT_FALSE(drawsLast(again)) << i;

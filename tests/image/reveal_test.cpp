@@ -102,7 +102,7 @@ void expectRevealIsRaster(gpu::Device& device, const RevealCase& law) {
     };
     const image::Image& reveal = result.intermediates.at("reveal");
     EXPECT_LE(test::computeMaxDifferenceWhere(reveal, expected, masked), 1.0 / 255.0);
-    // The law is void if the occluder looks like the surface behind it.
+    // The law is void if the occluder has the colour of the surface behind it.
     const auto hidden = test::renderOnce(device, both, sharp).color;
     EXPECT_GT(test::computeMaxDifferenceWhere(hidden, expected, masked), 0.2);
     const image::Image& motion = drawn.intermediates.at("motion");

@@ -450,7 +450,7 @@ TEST_F(MotionCapLaw, ATurningMoverEndsAtTheCapThoughItsChordIsNoMeasureOfItsAngl
     EXPECT_NEAR(findLongest(capped, 0), kCapPx, 0.02 * kCapPx);
 }
 
-TEST_F(MotionCapLaw, TheCameraMovesLessForAllThatStandsStillAndMoversKeepTheirWayOnTheScreen) {
+TEST_F(MotionCapLaw, TheCameraMovesLessForStaticEntitiesAndMoversKeepTheirWayOnTheScreen) {
     SceneBuilder scene = makeTwoMovers({5, 0, 0});
     scene.moveCamera({.velocity = {-10, 0, 0}}); // 10 px; the fast mover 15 px on the screen
     Shot uncapped = cappedShot("sharp");

@@ -288,7 +288,7 @@ TEST_F(TruthLaw, BatchesAddUpToTheSamePictureAndSeedsDiffer) {
     }
 }
 
-TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessAsked) {
+TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessRequested) {
     const SceneBuilder scene = makeScene(true);
     const auto without = test::renderOnce(device(), scene, {.method = "truth"});
     const auto with = test::renderOnce(device(), scene, {.method = "truth", .aovs = {"depth"}});

@@ -103,7 +103,7 @@ def check_host(name, command, folder, truth):
     folder.mkdir()
     printed = run_validated([*command, *LEAST_PSNR], folder)
     if "rays 1\n" not in printed:
-        fail(f"{name} was not asked once for what its rays see:\n{printed}")
+        fail(f"{name} was not called once for what its rays see:\n{printed}")
     offered = re.findall("^method (.*)$", printed, re.M)
     if offered and not set(LEAST_PSNR) <= set(offered):
         fail(f"{name} was offered only {offered}")
@@ -116,7 +116,7 @@ def check_host(name, command, folder, truth):
 
 
 def has_device(host, folder):
-    """A host that is to blur by no method does nothing but look for its device."""
+    """A host that is to blur by no method does nothing but find its device."""
     done = subprocess.run([str(word) for word in host], cwd=folder, text=True, capture_output=True,
                           check=False)
     if done.returncode == 0:

@@ -53,11 +53,11 @@ def check_components(prefix, folder):
     folder.mkdir()
     (folder / "main.cpp").write_text("int main() {}\n")
     (folder / "CMakeLists.txt").write_text(
-        "cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
+        "cmake_minimum_required(VERSION 3.25)\nproject(probe LANGUAGES CXX)\n"
         "find_package(Shutter 0.1 REQUIRED COMPONENTS core OPTIONAL_COMPONENTS teapot)\n"
         "if(Shutter_teapot_FOUND OR NOT Shutter_core_FOUND)\n message(FATAL_ERROR wrong)\nendif()\n"
-        "find_package(Shutter REQUIRED)\nadd_executable(asks main.cpp)\n"
-        "target_link_libraries(asks PRIVATE Shutter::app Shutter::truth Shutter::accumulate)\n"
+        "find_package(Shutter REQUIRED)\nadd_executable(probe main.cpp)\n"
+        "target_link_libraries(probe PRIVATE Shutter::app Shutter::truth Shutter::accumulate)\n"
         "find_package(Shutter QUIET COMPONENTS teapot)\n"
         "if(Shutter_FOUND OR NOT Shutter_NOT_FOUND_MESSAGE MATCHES \"no component teapot\")\n"
         " message(FATAL_ERROR \"teapot: ${Shutter_NOT_FOUND_MESSAGE}\")\nendif()\n")
@@ -233,7 +233,7 @@ def main():
     folder.mkdir(parents=True)
     run([CMAKE, "--install", BUILD, "--prefix", prefix], folder)
     check_installed(prefix)
-    check_components(prefix, folder / "asks")
+    check_components(prefix, folder / "probe")
     check_shared_library(prefix)
     for name in MOST_LINES:
         build_example(name, prefix, folder / name)

@@ -33,7 +33,7 @@ def list_symbols(library, *options):
 
 
 def run_validated(command, folder):
-    """Runs with core and synchronization validation, which must be there and have nothing to say."""
+    """Runs with core and synchronization validation, which must be there and print nothing."""
     env = dict(os.environ, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
                VK_LAYER_ENABLES="VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
                VK_KHRONOS_VALIDATION_VALIDATE_SYNC="true", VK_LOADER_DEBUG="layer")
@@ -47,7 +47,7 @@ def run_validated(command, folder):
 
 
 def list_words(prefix, package, folder):
-    """What pkg-config says of an installed package."""
+    """What pkg-config prints of an installed package."""
     packages = next(prefix.rglob(f"{package}.pc")).parent
     env = dict(os.environ, PKG_CONFIG_PATH=str(packages))
     return run(["pkg-config", "--cflags", "--libs", package], folder, env).split()

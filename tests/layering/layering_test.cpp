@@ -105,8 +105,8 @@ TEST(Layering, TheTreeIncludesTheStandardHeadersThatItUses) {
     EXPECT_EQ(findMissingHeaders(wrong).size(), 1u) << "the check finds nothing";
 }
 
-/// Vulkan lets a compiler take it that no float is NaN or infinite, so that it may drop these: only
-/// a test of the bits (shaders/common/numeric.glsl) holds.
+/// A compiler may assume in Vulkan that no float is NaN or infinite, so that it may drop these:
+/// only a test of the bits (shaders/common/numeric.glsl) holds.
 TEST(Layering, NoShaderTestsForNanByAComparison) {
     // An operand: a name, members and indices. What all but infinity are below begins at 3.4e38.
     const std::array rules = {

@@ -82,7 +82,7 @@ WRONG = [
     (key({"shutter": 180}), "keys[0].shutter"),
 ]
 
-# What no schema says.
+# What no schema has.
 BEYOND = [
     (key({"time": 1.5}), "keys[1].time"),
     (lambda f: f.update(up=[0, 0, 0]), "up"),
@@ -109,9 +109,9 @@ class Flythrough(unittest.TestCase):
         run = subprocess.run(
             [os.environ["SHUTTER_CHECK_FLYTHROUGHS"], *paths],
             capture_output=True, text=True, check=True)
-        said = run.stdout.split("\n")[:-1]
-        self.assertEqual(len(said), len(paths))
-        return said
+        printed = run.stdout.split("\n")[:-1]
+        self.assertEqual(len(printed), len(paths))
+        return printed
 
     def change(self, changes):
         """Pairs of the changed example and its file."""
@@ -126,8 +126,8 @@ class Flythrough(unittest.TestCase):
 
     def expect_refusals(self, cases, is_valid):
         changed = self.change([change for change, _ in cases])
-        said = self.read([path for _, path in changed])
-        for (flythrough, _), error, (_, field) in zip(changed, said, cases):
+        printed = self.read([path for _, path in changed])
+        for (flythrough, _), error, (_, field) in zip(changed, printed, cases):
             with self.subTest(field=field, flythrough=flythrough):
                 self.assertEqual(self.validator.is_valid(flythrough), is_valid)
                 self.assertRegex(error, r"/changed_[0-9]+\.json:[0-9]+: ")

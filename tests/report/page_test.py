@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The report page in headless Chromium: what it draws and says is what the results say."""
+"""The report page in headless Chromium: what it draws and states is what the results hold."""
 
 import json
 import shutil
@@ -37,8 +37,8 @@ class Page(PageCase):
     def test_asks_nothing_of_the_network(self):
         for suite in self.results:
             self.open(suite)
-            asked = self.js("return performance.getEntriesByType('resource').map((e) => e.name)")
-            self.assertEqual([name for name in asked if not name.startswith("data:")], [])
+            requested = self.js("return performance.getEntriesByType('resource').map((e) => e.name)")
+            self.assertEqual([name for name in requested if not name.startswith("data:")], [])
             self.assertTrue(self.js("return [...document.images].every((i) => i.naturalWidth)"))
 
     def test_keeps_the_licence_of_what_it_includes(self):

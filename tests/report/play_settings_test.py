@@ -49,7 +49,7 @@ class PlaySettings(unittest.TestCase):
         cls.folder.cleanup()
 
     def fields(self, schema=None, path=()):
-        """Every field with what the schema says of it."""
+        """Every field with its part of the schema."""
         for name, field in (schema or self.schema)["properties"].items():
             if "$ref" in field:
                 field = self.schema["$defs"][field["$ref"].split("/")[-1]]
@@ -59,7 +59,7 @@ class PlaySettings(unittest.TestCase):
                 yield (*path, name), field
 
     def check(self, contents):
-        """What the program says of each."""
+        """What the program prints of each."""
         files = []
         for i, content in enumerate(contents):
             files.append(self.path / f"check{i}.json")
@@ -93,9 +93,9 @@ class PlaySettings(unittest.TestCase):
                 wrong += [0, "nosuch"]
             cases += [(path, place(path, value)) for value in wrong]
         self.assertGreater(len(cases), 200)
-        for (path, content), (file, said) in zip(cases, self.check([c for _, c in cases])):
+        for (path, content), (file, printed) in zip(cases, self.check([c for _, c in cases])):
             self.assertFalse(self.validator.is_valid(content), content)
-            self.assertRegex(said, rf"^{file}:[0-9]+: {'[.]'.join(path)}\b", content)
+            self.assertRegex(printed, rf"^{file}:[0-9]+: {'[.]'.join(path)}\b", content)
 
     def test_ends_of_ranges_are_taken_by_both(self):
         cases = []
@@ -104,15 +104,15 @@ class PlaySettings(unittest.TestCase):
                 cases += [place(path, f[end]) for end in ("minimum", "maximum") if end in f]
                 cases += [place(path, f["const"])] if "const" in f else []
                 cases += [place(path, word) for word in f.get("enum", []) if word != "samples"]
-        for content, (_, said) in zip(cases, self.check(cases)):
+        for content, (_, printed) in zip(cases, self.check(cases)):
             self.validator.validate(content)
-            self.assertEqual(said, "ok", content)
+            self.assertEqual(printed, "ok", content)
 
     def test_unknown_fields_are_refused_by_both(self):
         cases = [place((*path[:-1], "nosuch"), 1) for path, _ in self.fields()]
-        for content, (_, said) in zip(cases, self.check(cases)):
+        for content, (_, printed) in zip(cases, self.check(cases)):
             self.assertFalse(self.validator.is_valid(content))
-            self.assertIn("nosuch: is not a field here", said)
+            self.assertIn("nosuch: is not a field here", printed)
 
 
 if __name__ == "__main__":

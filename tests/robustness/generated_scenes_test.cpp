@@ -195,8 +195,8 @@ TEST(ScalingScenes, FewMoverScenesHaveTheRequestedEntitiesOrOneStaticOne) {
 }
 
 TEST(ScalingScenes, EntityCountsOutsideTheRangeAreClamped) {
-    const auto count = [](int asked) {
-        const scene::World world = writeAndLoad("entities_clamped", buildEntitiesScene(asked));
+    const auto count = [](int requested) {
+        const scene::World world = writeAndLoad("entities_clamped", buildEntitiesScene(requested));
         return (countTriangles(world) - 2) / 12;
     };
     EXPECT_EQ(count(0), 1u);
@@ -225,7 +225,7 @@ TEST(ScalingScenes, TriangleCountsOutsideTheRangeAreClamped) {
     EXPECT_NEAR(double(countTriangles(world)), kMaxTriangleCount, 0.02 * kMaxTriangleCount);
 }
 
-TEST(ScalingScenes, ARegionOfPanelsMovesAndTheOthersStandStill) {
+TEST(ScalingScenes, ARegionOfPanelsMovesAndTheOthersAreStatic) {
     const auto count = [](int columns, int rows) {
         const scene::World world = writeAndLoad(
             fmt::format("region_{}_{}", columns, rows), buildMovingRegionScene(columns, rows)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""scripts/gpu_report.sh writes one file with every figure, and says what it could not measure."""
+"""scripts/gpu_report.sh writes one file with every figure, and names what it could not measure."""
 
 import os
 import pathlib

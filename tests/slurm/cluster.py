@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A Slurm cluster on this machine: munge, a controller and a daemon for each node, all as the user
-who runs this, in a folder of their own and on ports of their own. As a program it sets one up, says
+who runs this, in a folder of their own and on ports of their own. As a program it sets one up, prints
 which environment reaches it, and takes it down when its standard input ends:
 
     cluster.py FOLDER [NODES]

@@ -85,7 +85,7 @@ class Films(SlurmCase):
         self.start_jobs(jobs)
         _, err = self.finish(self.start([*film, "--wait"]), status=1)
         self.assertEqual(err.count("\n"), 1, err)
-        self.assertRegex(err, "the film is not finished: part [1-4] says: .* were drawn otherwise")
+        self.assertRegex(err, "the film is not finished: part [1-4] reports: .* were drawn otherwise")
         self.assertFalse((self.folder / "refused.mp4").exists())
         # The remaining frames can be drawn by any process once that is fixed.
         other.unlink()

@@ -55,7 +55,7 @@ class SlurmCase(unittest.TestCase):
             self.cluster.run("scontrol", "update", f"jobid={job}", "StartTime=now", check=check)
 
     def start_requeued(self):
-        """Slurm lets a job that was requeued wait for two minutes; this one need not."""
+        """Slurm makes a job that was requeued wait for two minutes; this one need not."""
         self.start_jobs([job for job in self.queue("%i", "-t", "PD") if "_" in job], check=False)
 
 

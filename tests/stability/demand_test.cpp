@@ -243,11 +243,11 @@ const Useless kUseless[] = {
      .bloom = {.share = 0.1f, .threshold = 20.0f}},
 };
 
-/// The frame's dump. \param isAsked with the options
+/// The frame's dump. \param isRequested with the options
 std::string drawUseless(
     gpu::Device& device,
     const Useless& wanted,
-    bool isAsked,
+    bool isRequested,
     game::AntiAliasing antiAliasing = game::AntiAliasing::None
 ) {
     SceneBuilder scene;
@@ -272,13 +272,13 @@ std::string drawUseless(
     );
     if (wanted.hasSun)
         scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
-    if (wanted.hasEnvironment && isAsked) {
+    if (wanted.hasEnvironment && isRequested) {
         image::Image sky(64, 32, 3);
         std::fill(sky.pixels.begin(), sky.pixels.end(), 0.5f);
         scene.world.assets.environment = need(environment::makeEnvironment(std::move(sky), {}));
     }
     Shot shot = makeFrame("sharp", 1.0 / 48.0);
-    if (isAsked)
+    if (isRequested)
         shot.shadows.mode = wanted.shadows;
     bloom::Bloom bloom(device, wanted.bloom);
     Frames frames(device, scene);
@@ -290,9 +290,10 @@ std::string drawUseless(
                        [&](game::PictureRequest& request) {
                            request.frame.view.unlit = wanted.isUnlit;
                            request.frame.wantColor = false;
-                           request.frame.wantBrightest = isAsked; // of what the last picture showed
+                           request.frame.wantBrightest =
+                               isRequested; // of what the last picture showed
                            request.antiAliasing = antiAliasing;
-                           if (isAsked)
+                           if (isRequested)
                                request.ending.insert(request.ending.begin(), &bloom);
                        }
                    )
@@ -306,10 +307,10 @@ TEST_F(Demand, UnusedLightsHaveNoPassAndNoImage) {
     for (const Useless& wanted : kUseless) {
         SCOPED_TRACE(wanted.name);
         const std::string plain = drawUseless(device(), wanted, false);
-        const std::string asked = drawUseless(device(), wanted, true);
+        const std::string requested = drawUseless(device(), wanted, true);
         for (const char* section : {"passes", "images"})
-            EXPECT_EQ(listBeyond(listParts(asked, section), listParts(plain, section)), kNone);
-        EXPECT_FALSE(listParts(asked, "passes").empty());
+            EXPECT_EQ(listBeyond(listParts(requested, section), listParts(plain, section)), kNone);
+        EXPECT_FALSE(listParts(requested, "passes").empty());
     }
 }
 
@@ -353,12 +354,12 @@ TEST_F(Demand, ParticlesThatTheViewLeavesOutHaveNoPassNoImageAndNoBuffer) {
 TEST_F(Demand, AntiAliasingWhereNothingMovesHasOnePassAndOneImage) {
     const Useless still{.name = "taa", .isFirst = false};
     const std::string plain = drawUseless(device(), still, false);
-    const std::string asked = drawUseless(device(), still, false, game::AntiAliasing::Taa);
-    const auto passes = listBeyond(listParts(asked, "passes"), listParts(plain, "passes"));
+    const std::string requested = drawUseless(device(), still, false, game::AntiAliasing::Taa);
+    const auto passes = listBeyond(listParts(requested, "passes"), listParts(plain, "passes"));
     ASSERT_EQ(passes.size(), 1u);
     EXPECT_TRUE(passes.front().starts_with("'taa'")) << passes.front();
     // Lines contain the lifetimes of images, which a further pass changes.
-    EXPECT_LE(listParts(asked, "images").size(), listParts(plain, "images").size() + 1);
+    EXPECT_LE(listParts(requested, "images").size(), listParts(plain, "images").size() + 1);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ void hold(const std::string& check, const Worst& worst, double bound, const std:
         bound,
         worst.note.empty() ? "" : " (" + worst.note + ")"
     );
-    EXPECT_GT(worst.samples, 0u) << check << ": nothing was looked at";
+    EXPECT_GT(worst.samples, 0u) << check << ": nothing was checked";
     EXPECT_LE(worst.error, bound) << check << ": " << found;
     ::testing::Test::RecordProperty(check, found);
 }

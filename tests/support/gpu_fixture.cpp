@@ -75,7 +75,7 @@ void GpuTest::TearDown() {
         return;
     device().waitIdle();
     EXPECT_EQ(device().validationMessageCount(), mMessagesBefore)
-        << "Vulkan validation had something to say (see above)";
+        << "Vulkan validation reported something (see above)";
 }
 
 void RayTest::SetUp() {

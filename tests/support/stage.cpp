@@ -158,7 +158,7 @@ bool hasPass(const render::FrameResult& frame, std::string_view name) {
 std::string describeMotionBlur(const render::FrameResult& result) {
     const core::Decision* decision =
         render::findDecision(result.statistics.explanations, "motion blur");
-    return decision ? core::describe(*decision) : "not asked";
+    return decision ? core::describe(*decision) : "not requested";
 }
 
 } // namespace shutter::test

@@ -104,7 +104,7 @@ void expectTruthsAgree(Stage& stage, Shot shot, double mostSharp = 40.0);
 /// Whether a pass of the frame has this name.
 [[nodiscard]] bool hasPass(const render::FrameResult& frame, std::string_view name);
 
-/// "ran: ..." or "skipped: ..." of the motion blur; "not asked" where the frame had none.
+/// "ran: ..." or "skipped: ..." of the motion blur; "not requested" where the frame had none.
 [[nodiscard]] std::string describeMotionBlur(const render::FrameResult& result);
 
 /// For tests that need one picture of a scene.

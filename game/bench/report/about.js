@@ -27,7 +27,7 @@ function describeMeasuring() {
     const {pixel, repeats, tonemap} = results.settings;
     const timed = results.sequences
         ? "Each picture is timed once; figures of a film are medians over its frames."
-        : `Each figure is the median of ${repeats} repeats unless it says otherwise, ` +
+        : `Each figure is the median of ${repeats} repeats unless stated otherwise, ` +
             "and whiskers are quartiles; the methods took turns within the same run.";
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +

@@ -12,7 +12,7 @@ function applyTheme() {
     for (const listener of themeListeners) listener();
 }
 
-/** Whiskers from q1 to q3 of points that have `quartiles`; `along` says which axis is time. */
+/** Whiskers from q1 to q3 of points that have `quartiles`; `along` is the axis of time. */
 const whiskers = {
     id: "whiskers",
     afterDatasetsDraw(chart, _arguments, options) {

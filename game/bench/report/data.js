@@ -9,7 +9,7 @@ const methodByName = new Map(results.methods.map((method) => [method.name, metho
 const metricById = new Map(results.metrics.map((metric) => [metric.id, metric]));
 
 /**
- * Methods that a truth was made with. Against it they are judged by themselves, which says how fast
+ * Methods that a truth was made with. Against it they are judged by themselves, which shows how fast
  * they converge and not how right they are: plots hide them at first, rankings leave them out.
  */
 const truthMethods = new Set(results.cases.map((theCase) => theCase.truth.method));

@@ -76,13 +76,13 @@ function byId(id) {
     return document.getElementById(id);
 }
 
-/** Says at the top of the page what went wrong after the page was drawn. */
+/** Reports at the top of the page what went wrong after the page was drawn. */
 function reportFailure(message) {
     byId("failure").hidden = false;
     byId("failure").textContent = `This page could not be drawn in full: ${message}.`;
 }
 
-/** Shows a section that has something to say. */
+/** Shows a section that is not empty. */
 function reveal(id) {
     byId(id).hidden = false;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a better picture costs, in a sentence of computed figures; then the methods as a ladder.
 
-/** The two methods that the headline compares: as the results say, else hybrid and gather. */
+/** The two methods that the headline compares: as the results name them, else hybrid and gather. */
 function headlineMethods() {
     return results.headline ?? {method: "hybrid", baseline: "gather"};
 }

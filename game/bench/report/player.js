@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two films of one sequence in step: one clock says which frame is due, and both are taken to it.
+// Two films of one sequence in step: one clock determines which frame is due, and both are taken to it.
 
 const player = {
     left: null, right: null, // ids of films
@@ -44,12 +44,12 @@ function presented(video, frame) {
     return new Promise((resolve) => {
         setTimeout(resolve, kLongestWaitMs);
         if (!video.requestVideoFrameCallback) return;
-        const look = (_now, {mediaTime}) => {
+        const checkFrame = (_now, {mediaTime}) => {
             const shown = mediaTime * watched.sequence.framesPerSecond;
             if (Math.abs(shown - frame) < 0.5) resolve();
-            else video.requestVideoFrameCallback(look);
+            else video.requestVideoFrameCallback(checkFrame);
         };
-        video.requestVideoFrameCallback(look);
+        video.requestVideoFrameCallback(checkFrame);
     });
 }
 
@@ -86,7 +86,7 @@ function noteFrame() {
         `${formatNumber(player.shown / framesPerSecond, 2)} s`;
     const stage = byId("player-stage");
     stage.dataset.shown = String(player.shown);
-    // Whoever looks on does so now, before the next frame is sought.
+    // Listeners run now, before the next frame is sought.
     stage.dispatchEvent(new Event("shown"));
 }
 

@@ -5,7 +5,7 @@ const sequences = results.sequences ?? [];
 const temporalMetrics = results.temporalMetrics ?? [];
 const kTemporalDecimals = {psnr: 2, ssim: 4, flip: 4, hdrFlip: 4};
 
-/** What the reader looks at; `hidden`: methods that the curves leave out. */
+/** What the page shows; `hidden`: methods that the curves leave out. */
 const watched = {sequence: sequences[0] ?? null, metric: "psnr", hidden: new Set()};
 
 function formatTemporal(id, value) {

@@ -61,7 +61,7 @@ function makeViewport(file, region, description) {
     return box;
 }
 
-/** Numbered frames over a whole picture, one a crop. */
+/** Numbered frames over a whole picture, one per crop. */
 function addCropFrames(box, theCase) {
     const image = box.firstElementChild;
     image.addEventListener("load", () => {

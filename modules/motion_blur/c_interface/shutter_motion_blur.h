@@ -357,7 +357,7 @@ typedef struct ShutterBlurBlendedTask {
     /* 32-bit words: 8 reserved, then for each pair of instants one per pixel of the area, row by
      * row: two halves, the depth visible to the pixel at the even instant (low) and at the next
      * one, metres along the view; infinity for the sky, and this frame's depth where the uncovered
-     * surface is unknown. Null: the method does not look up instants; use this frame's depth. */
+     * surface is unknown. Null: the method reads no instants; use this frame's depth. */
     VkBuffer surfaces;
     VkDeviceAddress surfacesAddress;
     VkDeviceSize surfacesBytes;

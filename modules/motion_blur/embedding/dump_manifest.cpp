@@ -155,8 +155,8 @@ ordered_json describeInputs(
     std::vector<HostMover> movers;
     root["motion"] =
         method.readsInstantMotions ? describeMotion(countedMotion(inputs, movers)) : ordered_json();
-    const bool asks = method.rays == RayNeed::Any;
-    root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
+    const bool hasReveal = method.rays == RayNeed::Any;
+    root["reveal"] = !hasReveal ? "none" : inputs.reveal.record ? "own" : "tables";
     root["drawn"] = inputs.drawn.record ? describeDraws(inputs, settings) : ordered_json();
     root["response"] = hasResponse ? "file" : inputs.response == 0 ? "box" : "address";
     return root;

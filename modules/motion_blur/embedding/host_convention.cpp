@@ -81,7 +81,7 @@ core::Status checkProjection(
     const auto camera = motion_blur::normalize(key, aheadIsPlusZ);
     if (!camera && motion_blur::normalize(key, !aheadIsPlusZ))
         return makeError(
-            "motion blur: cameras.{} looks along {}Z, cameras.aheadIsPlusZ "
+            "motion blur: cameras.{} faces {}Z, cameras.aheadIsPlusZ "
             "means {}Z",
             name,
             aheadIsPlusZ ? "-" : "+",

@@ -74,7 +74,7 @@ class Builder {
         if (last && last->sizePx == mFrame.sizePx && last->isPerspective == isPerspective())
             made.layers.last = describeLast(*last);
         if (mMotion.lens.isOpen()) {
-            // Another look at the same surfaces from the same places adds nothing.
+            // Another raster of the same surfaces from the same places adds nothing.
             if (last && showsTheSame(*last, made.raster))
                 made.layers.last.reset();
             addLens(made.layers);

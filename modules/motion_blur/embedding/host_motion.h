@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion of a host's camera and entities during the exposure, for methods that look up surfaces at
+// Motion of a host's camera and entities during the exposure, for methods with lookups at
 // its instants (Method::readsInstantMotions).
 #pragma once
 

@@ -65,7 +65,7 @@ core::Status checkKeyProjection(
     const auto camera = normalize(key, motion.aheadIsPlusZ);
     if (!camera && normalize(key, !motion.aheadIsPlusZ))
         return makeError(
-            "motion blur: {} looks along {}Z, cameras.aheadIsPlusZ means {}Z",
+            "motion blur: {} faces {}Z, cameras.aheadIsPlusZ means {}Z",
             name,
             motion.aheadIsPlusZ ? "-" : "+",
             motion.aheadIsPlusZ ? "+" : "-"

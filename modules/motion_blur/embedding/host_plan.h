@@ -37,7 +37,7 @@ struct HostPlan {
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.
 struct DryRunInputs {
-    /// The next recording looks at the world from another place.
+    /// The next recording sees the world from another place.
     void moveCamera();
 
     HostInputs inputs;

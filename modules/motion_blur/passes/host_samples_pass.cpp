@@ -35,7 +35,7 @@ uint32_t capacityOf(const PassParams& params) {
 } // namespace
 
 struct HostSamplesPass::Lists {
-    graph::BufferHandle samples; ///< shader::SampleHeader, shader::AskedSample
+    graph::BufferHandle samples; ///< shader::SampleHeader, shader::RequestedSample
     graph::BufferHandle answers; ///< vec4 by sample
     graph::BufferHandle first;   ///< by listed pixel
     graph::BufferHandle groups;  ///< shader::DispatchArguments
@@ -79,19 +79,19 @@ HostSamplesPass::createLists(graph::Graph& graph, const PassParams& params, bool
     const VkDeviceSize capacity = capacityOf(params);
     Lists lists;
     lists.samples = graph.createBuffer(
-        "asked samples",
-        {sizeof(shader::SampleHeader) + capacity * sizeof(shader::AskedSample), kListUsage}
+        "requested samples",
+        {sizeof(shader::SampleHeader) + capacity * sizeof(shader::RequestedSample), kListUsage}
     );
     lists.answers = graph.createBuffer("answers", {capacity * sizeof(glm::vec4), kListUsage});
     lists.first = graph.createBuffer("first samples", {pixels * sizeof(uint32_t), kListUsage});
     lists.groups = graph.createBuffer(
-        "asked sample groups", {sizeof(shader::DispatchArguments), kArgumentsUsage}
+        "requested sample groups", {sizeof(shader::DispatchArguments), kArgumentsUsage}
     );
     if (hasLens)
         lists.places =
             graph.createBuffer("lens places", {capacity * sizeof(glm::vec2), kListUsage});
     const Lists& cleared = graph.addPass<Lists>(
-        "clear asked samples",
+        "clear requested samples",
         graph::PassKind::Transfer,
         [&](graph::PassBuilder& builder, Lists& data) {
             data.samples = builder.write(lists.samples, Access::TransferWrite);
@@ -178,7 +178,8 @@ void HostSamplesPass::addAnswer(
             auto task = makeTask<SampleTask>(context.commands, sizePx);
             task.list = resources.buffer(data.lists.samples);
             task.listAddress = resources.address(data.lists.samples);
-            task.listBytes = sizeof(shader::SampleHeader) + capacity * sizeof(shader::AskedSample);
+            task.listBytes =
+                sizeof(shader::SampleHeader) + capacity * sizeof(shader::RequestedSample);
             task.groups = resources.buffer(data.lists.groups);
             if (data.launch.isValid()) {
                 task.launch = resources.buffer(data.launch);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Raster images as layers that pixels are looked up in: this frame's, and the last one's.
+// Raster images as layers for lookups: this frame's, and the previous one's.
 #pragma once
 
 #include "engine/gpu/pipeline.h"

@@ -33,9 +33,9 @@ class InstantMotionBuffers {
     [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
 
     /// Computes a frame's tables.
-    /// \param hasHistory things are looked up in the raster of the frame before, which
-    /// ExtractContext::lastRaster shows where it is not kept, and the next frame may look up things
-    /// in this one's (ViewFacts::isFollowed)
+    /// \param hasHistory the raster of the previous frame has lookups, too, which
+    /// ExtractContext::lastRaster shows where it is not stored, and the next frame may read
+    /// this one's (ViewFacts::isFollowed)
     void extract(const render::ExtractContext& context, const Instants& instants, bool hasHistory);
 
     /// \param context of the frame that extract() was called for; the slot's last frame must be

@@ -46,7 +46,7 @@ void explainCrowds(render::FinishedFrame& frame) {
     );
 }
 
-constexpr const char* kNoPicture = "the frame is drawn for what the next one looks up in it";
+constexpr const char* kNoPicture = "the frame is drawn for the lookups of the next one";
 
 /// In place of a level of the budget: the frame's time is not used.
 constexpr size_t kNoLevel = SIZE_MAX;

@@ -53,7 +53,7 @@ class MotionBlurPlugin : public render::PostEffect {
     /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
-    /// True for methods that look up instants.
+    /// True for methods with lookups.
     [[nodiscard]] bool readsEdges() const override;
     /// For methods that blur the raster.
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
@@ -94,7 +94,7 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
 
-    /// Whether the next frame's method looks up surfaces in the raster of the one before.
+    /// Whether the next frame's method reads the raster of the previous one.
     [[nodiscard]] bool readsHistory() const;
 
     /// Whether the frame is drawn only as history for the next one, and the method stores history.

@@ -126,7 +126,7 @@ TEST(MakeInstant, SeedsDetermineThePlaces) {
     EXPECT_EQ(firsts.size(), 50u);
 }
 
-TEST(MakeInstant, TheRestOfTheViewStaysAsAskedFor) {
+TEST(MakeInstant, TheRestOfTheViewStaysAsRequested) {
     extract::ViewRequest view;
     view.width = 7;
     view.height = 5;

@@ -202,7 +202,7 @@ dvec3 aheadOf(const math::Transform& placement) {
     return placement.rotation * dvec3(0, 0, -1);
 }
 
-TEST(CameraControl, AnOrbitLooksAtItsTarget) {
+TEST(CameraControl, AnOrbitPointsAtItsTarget) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int i = 0; i < 100; ++i) {
@@ -219,7 +219,7 @@ TEST(CameraControl, AnOrbitLooksAtItsTarget) {
     }
 }
 
-TEST(CameraControl, FlyingAheadGoesWhereItLooks) {
+TEST(CameraControl, FlyingAheadGoesWhereTheCameraPoints) {
     FlyView view{{1.0, 2.0, 3.0}, 0.7, 0.3, 2.0};
     const math::Transform before = placementOf(view);
     InputState input;

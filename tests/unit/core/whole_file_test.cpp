@@ -142,7 +142,7 @@ TEST(WholeFile, ANewFileHasThePermissionsThatTheMaskLeaves) {
     }
 }
 
-TEST(WholeFile, AFileThatIsThereKeepsItsOwnerWhereTheSystemLetsUs) {
+TEST(WholeFile, AFileThatIsThereKeepsItsOwnerWhereTheSystemPermits) {
     if (::geteuid() != 0)
         GTEST_SKIP() << "only root gives files away";
     const TempFolder folder;

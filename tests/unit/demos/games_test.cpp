@@ -238,7 +238,7 @@ TEST(RallyCar, SteeringTurnsToTheRequestedSideWithinGrip) {
     EXPECT_LT(car.heading, -0.3);
 }
 
-TEST(RallyCar, TheHandBrakeLocksTheRearWheelsAndLetsItSlide) {
+TEST(RallyCar, TheHandBrakeLocksTheRearWheelsAndTheCarSlides) {
     CarState gripping;
     gripping.velocity = {0.0, -18.0};
     CarState sliding = gripping;
@@ -450,7 +450,7 @@ TEST(RideRules, ARingIsCaughtOncePerGrabAndAMissCosts) {
     EXPECT_EQ(countPoints(rules), 145);
 }
 
-TEST(RideRules, AnotherRateIsAskedForEveryNineSeconds) {
+TEST(RideRules, AnotherRateIsDemandedEveryNineSeconds) {
     Random random(1);
     RideRules rules;
     std::set<double> rates;

@@ -119,7 +119,7 @@ class ChangesOfARegistry : public testing::Test {
 
 using Listed = std::vector<Entity>;
 
-TEST_F(ChangesOfARegistry, TheFirstLookSaysAll) {
+TEST_F(ChangesOfARegistry, TheFirstQueryReportsAll) {
     ChangeCursor fresh;
     const Changes first = constant.changesSince<Position>(fresh);
     EXPECT_TRUE(first.all);

@@ -57,7 +57,7 @@ TEST(Registry, DestroyRemovesEveryComponent) {
         ADD_FAILURE();
 }
 
-TEST(Registry, RemoveSaysWhetherTheComponentWasThere) {
+TEST(Registry, RemoveReturnsWhetherTheComponentWasThere) {
     Registry registry;
     const Entity entity = registry.create();
     EXPECT_FALSE(registry.remove<Health>(entity));
@@ -153,7 +153,7 @@ TEST(RegistryDeathTest, UsingAStaleHandleIsAProgrammersMistake) {
     EXPECT_DEATH(registry.add<Health>(kNullEntity), "the null entity is not alive");
 }
 
-TEST(Entity, ComparisonLooksAtIndexAndGeneration) {
+TEST(Entity, ComparisonIsOfIndexAndGeneration) {
     EXPECT_EQ((Entity{3, 1}), (Entity{3, 1}));
     EXPECT_NE((Entity{3, 1}), (Entity{3, 2}));
     EXPECT_NE((Entity{3, 1}), (Entity{4, 1}));

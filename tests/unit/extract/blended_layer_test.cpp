@@ -89,7 +89,7 @@ TEST_F(BlendedLayers, AMovingCameraAloneTakesNothingOutOfTheRaster) {
     EXPECT_NE(std::find(layer.begin(), layer.end(), visor), layer.end());
 }
 
-TEST_F(BlendedLayers, AWorldWithoutBlendedGeometriesIsNotLookedAt) {
+TEST_F(BlendedLayers, AWorldWithoutBlendedGeometriesIsNotSearched) {
     move(addBox({0, 0, -20}, glass), {1, 0, 0});
     layout.hasBlended = false;
     EXPECT_TRUE(findLayer().empty());
@@ -122,7 +122,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
     EXPECT_TRUE(behind.readsInstants);
     EXPECT_EQ(behind.instants.size(), 15u);
     EXPECT_EQ(behind.partCount, shader::kMaxSurfaceParts);
-    // A method that looks up no instants has the raster's depth.
+    // A method without lookups has the raster's depth.
     LayerLimits limits = limitsOf(15);
     limits.findsInstants = false;
     EXPECT_FALSE(plan(limits).readsInstants);

@@ -364,7 +364,7 @@ TEST_F(MotionPartsTest, ACasterBesideThePictureCountsWithShadowsOnly) {
     EXPECT_EQ(plan().casterPx, 0.0);
 }
 
-TEST_F(MotionPartsTest, AMovingLightIsToldUnlessThePictureIsUnlit) {
+TEST_F(MotionPartsTest, AMovingLightIsReportedUnlessThePictureIsUnlit) {
     const ecs::Entity light = world.registry.create();
     world.registry.add(light, scene::LocalTransform{});
     world.registry.add(light, scene::Light{});

@@ -182,7 +182,7 @@ TEST_F(InstantTablesTest, ALensAddsPlacesButNoMotions) {
     }
 }
 
-TEST_F(InstantTablesTest, WithALensALastRasterOfTheSameSaysNothing) {
+TEST_F(InstantTablesTest, WithALensALastRasterOfTheSameAddsNothing) {
     world.registry.add(camera, scene::CameraLens{.fStop = 1.0, .focusDistance = 3.0});
     const ecs::Entity box = addBox({0.0, 0.0, -8.0});
     request.usesLens = true;
@@ -227,7 +227,7 @@ TEST_F(InstantTablesTest, TheSecondRasterShowsWhereItsSurfacesAre) {
     expectMaps(*tables.second, 0, project(tumbler, corner, 0.0), tumbler, corner);
     expectMaps(*tables.second, 1, project(wall, corner, 0.0), wall, corner);
     EXPECT_EQ(tables.second->movers.at(1), shader::kWorldMover);
-    EXPECT_EQ(tables.record.seconds, 1.0) << "the frame after looks into the frame's own raster";
+    EXPECT_EQ(tables.record.seconds, 1.0) << "the next frame reads the frame's own raster";
 }
 
 TEST_F(InstantTablesTest, EntitiesAppearingDuringTheExposureAreInBothRasters) {

@@ -140,7 +140,7 @@ TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
     EXPECT_NEAR(tables.rows[0].placeAge.x, 0.5f, 1e-5f);
 }
 
-TEST_F(Particles, AnExcludedEmitterAndACutStandStill) {
+TEST_F(Particles, AnExcludedEmitterAndACutAreStatic) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
     EXPECT_GT(extractAll().emitters.at(0).secondsPerExposure, 0.0f);

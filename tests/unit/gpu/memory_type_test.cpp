@@ -211,31 +211,31 @@ TEST(MemoryType, OnlyTypesThatTheResourceAllowsAreNamed) {
 std::pair<TypeAttempt, std::vector<uint32_t>> tryTypes(
     const std::vector<uint32_t>& types, const std::vector<uint32_t>& full, VkResult otherwise
 ) {
-    std::vector<uint32_t> asked;
+    std::vector<uint32_t> tried;
     const TypeAttempt attempt = allocateInTurn(types, [&](uint32_t type) {
-        asked.push_back(type);
+        tried.push_back(type);
         for (const uint32_t one : full)
             if (one == type)
                 return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         return otherwise;
     });
-    return {attempt, asked};
+    return {attempt, tried};
 }
 
 TEST(MemoryType, TheNextTypeIsTriedWhereTheBestIsFull) {
     const auto streams =
         rankMemoryTypes(makeProperties(nvkWithoutResizableBar()), kAnyType, MemoryUse::Stream, 1);
-    const auto [attempt, asked] = tryTypes(streams, {1}, VK_SUCCESS);
+    const auto [attempt, tried] = tryTypes(streams, {1}, VK_SUCCESS);
     EXPECT_EQ(attempt.result, VK_SUCCESS);
     EXPECT_EQ(attempt.type, 2u);
-    EXPECT_EQ(asked, (std::vector<uint32_t>{1, 2}));
+    EXPECT_EQ(tried, (std::vector<uint32_t>{1, 2}));
 }
 
 TEST(MemoryType, AllFullIsOutOfDeviceMemoryAndAnotherErrorEndsTheSearch) {
     EXPECT_EQ(tryTypes({3, 5}, {3, 5}, VK_SUCCESS).first.result, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-    const auto [attempt, asked] = tryTypes({3, 5}, {}, VK_ERROR_TOO_MANY_OBJECTS);
+    const auto [attempt, tried] = tryTypes({3, 5}, {}, VK_ERROR_TOO_MANY_OBJECTS);
     EXPECT_EQ(attempt.result, VK_ERROR_TOO_MANY_OBJECTS);
-    EXPECT_EQ(asked, std::vector<uint32_t>{3});
+    EXPECT_EQ(tried, std::vector<uint32_t>{3});
 }
 
 } // namespace

@@ -21,7 +21,7 @@ TEST(SwapchainState, OnlyAnOutdatedSwapchainIsRecreated) {
     EXPECT_EQ(judgeSwapchain(VK_ERROR_SURFACE_LOST_KHR, kMade, kMade), SwapchainState::SurfaceLost);
 }
 
-TEST(SwapchainState, ADriverThatAlwaysSaysSuboptimalIsLeftAloneUntilTheSizeChanges) {
+TEST(SwapchainState, ADriverThatAlwaysReportsSuboptimalHasNoEffectUntilTheSizeChanges) {
     EXPECT_EQ(judgeSwapchain(VK_SUBOPTIMAL_KHR, kMade, kMade), SwapchainState::Fits);
     EXPECT_EQ(judgeSwapchain(VK_SUBOPTIMAL_KHR, kMade, kAny), SwapchainState::Fits);
     EXPECT_EQ(judgeSwapchain(VK_SUBOPTIMAL_KHR, kMade, kOther), SwapchainState::Outdated);

@@ -76,7 +76,7 @@ TEST(ImageFile, EightBitPicturesAreStoredForADisplayAndFloatsAndIdsAreNot) {
     EXPECT_FALSE(readStoredImage(folder.path() / "missing.exr"));
 }
 
-TEST(ImageFile, AnExrDoesNotTellWhenItWasWritten) {
+TEST(ImageFile, AnExrHasNoTimeOfWriting) {
     const TempFolder folder;
     ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(5, 3, 2)).ok());
     std::ifstream stream(folder.path() / "a.exr", std::ios::binary);
@@ -262,7 +262,7 @@ TEST(ImageFile, UnknownExtensionsAreNamed) {
     EXPECT_FALSE(isDisplayFormat("noextension"));
 }
 
-TEST(ImageFile, CheckWritableTellsAMissingFolderFromAGoodOne) {
+TEST(ImageFile, CheckWritableDistinguishesAMissingFolderFromAGoodOne) {
     const TempFolder folder;
     EXPECT_TRUE(checkWritable(folder.path() / "a.exr"));
     const core::Status missing = checkWritable(folder.path() / "nowhere" / "a.exr");
@@ -438,7 +438,7 @@ std::string replaceInExr(std::string exr, const std::string& name, size_t offset
     return exr;
 }
 
-TEST(ImageFile, AnExrThatAsksForMoreThanItHoldsIsRefused) {
+TEST(ImageFile, AnExrThatDeclaresMoreThanItHoldsIsRefused) {
     using namespace std::string_literals;
     const TempFolder folder;
     ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
@@ -480,7 +480,7 @@ fs::path writeInDisplay(const TempFolder& folder, const std::array<int, 4>& corn
     return folder.write("display.exr", exr);
 }
 
-TEST(ImageFile, AnExrTellsWhereItsPixelsLie) {
+TEST(ImageFile, AnExrStatesWhereItsPixelsLie) {
     const TempFolder folder;
     const auto read = readStoredImage(writeInDisplay(folder, {-3, 2, 8, 9}));
     ASSERT_TRUE(read) << read.error().message;

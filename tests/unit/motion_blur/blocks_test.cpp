@@ -91,7 +91,7 @@ TEST(BlockClass, ASmearReachesBlocksWithinItsLength) {
     EXPECT_TRUE(reaches(90, 90, 13.5f));
 }
 
-TEST(BlockTiles, ACentreLiesInTheTileThatWholeNumbersSay) {
+TEST(BlockTiles, ACentreLiesInTheTileOfWholeNumbers) {
     for (uint tileSize = 1; tileSize < 130; ++tileSize)
         for (uint x = 0; x < 8192; ++x)
             ASSERT_EQ(

@@ -94,18 +94,18 @@ TEST(Budget, RungsStartWithTheRequestedSettingsAndEndWithTheCheapestBlur) {
             EXPECT_EQ(last.method, &getMethod("own_velocity"));
             EXPECT_GE(last.sampleCount, std::min(samples, 4u)) << "fewer are ghosts";
             EXPECT_LE(last.sampleCount, 4u);
-            std::set<std::string> said;
+            std::set<std::string> named;
             for (size_t i = 1; i < levels.size(); ++i) {
                 EXPECT_LT(levels[i].cost, levels[i - 1].cost) << method->name << " level " << i;
                 EXPECT_TRUE(validate(levels[i].settings).ok()) << levels[i].droppedQuality;
-                EXPECT_TRUE(said.insert(levels[i].droppedQuality).second)
+                EXPECT_TRUE(named.insert(levels[i].droppedQuality).second)
                     << levels[i].droppedQuality;
                 EXPECT_LE(levels[i].settings.rayShare, levels[i - 1].settings.rayShare);
             }
         }
 }
 
-TEST(Budget, TheLadderSaysWhatItGivesUp) {
+TEST(Budget, TheLadderNamesWhatItGivesUp) {
     const auto levels = makeLevels(settingsOf(&getMethod("hybrid")));
     EXPECT_EQ(levels[1].droppedQuality, "half of the resolution along long uniform motion");
     EXPECT_EQ(
@@ -128,7 +128,7 @@ TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
     EXPECT_EQ(levels[4].droppedQuality, "all rays, 3 of 15 samples");
 }
 
-TEST(Budget, TheLookUpsLadderGoesFromFewInstantsToEachPixelsOwnMotion) {
+TEST(Budget, TheLadderOfLookupsGoesFromFewInstantsToEachPixelsOwnMotion) {
     const auto levels = makeLevels(settingsOf(&getMethod("resolved"), 15));
     ASSERT_EQ(levels.size(), 6u);
     for (size_t i = 0; i < 4; ++i)

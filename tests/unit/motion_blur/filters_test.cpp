@@ -354,7 +354,7 @@ TEST(Guertin2014, EachPartOfTheWeightCountsByItsDirection) {
         << "beyond the shorter";
 }
 
-TEST(Guertin2014, TheCentreWeighsAsThePaperSays) {
+TEST(Guertin2014, TheCentreHasThePapersWeight) {
     EXPECT_NEAR(guertinCentreWeight(10.0f, 35, 40.0f), 35.0f / (40.0f * 5.0f), 1e-6f);
     EXPECT_NEAR(guertinCentreWeight(0.0f, 35, 40.0f), 35.0f / (40.0f * 0.5f), 1e-6f);
 }

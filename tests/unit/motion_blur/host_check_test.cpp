@@ -226,8 +226,8 @@ std::string checkDeformedBy(math::vec4 (*change)(const math::vec4&)) {
 }
 
 TEST(HostCheck, DeformedMotionMustAgreeWithVectors) {
-    const auto contains = [](const std::string& said, const char* part) {
-        return said.find(part) != std::string::npos;
+    const auto contains = [](const std::string& reported, const char* part) {
+        return reported.find(part) != std::string::npos;
     };
     EXPECT_EQ(checkDeformedBy([](const math::vec4& v) { return v; }), "");
     EXPECT_TRUE(contains(checkDeformedBy([](const math::vec4& v) { return -v; }), "exchanged"));

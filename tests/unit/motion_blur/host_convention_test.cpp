@@ -121,7 +121,7 @@ TEST(HostConvention, RawDepthOfEachProjectionIsMetres) {
     }
 }
 
-TEST(HostConvention, TheSkyIsToldByItsValue) {
+TEST(HostConvention, TheSkyIsKnownByItsValue) {
     HostConvention convention = makeConvention({"", forward()});
     convention.depth.skyValue = 1.0f;
     const shader::PrepareTable raw = makePrepareTable(convention, kPicture);
@@ -359,7 +359,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     );
     refuse(
         [](C& c) { c.cameras.clipFromView = aheadPlusZ(); },
-        "clipFromView looks along +Z, cameras.aheadIsPlusZ means -Z"
+        "clipFromView faces +Z, cameras.aheadIsPlusZ means -Z"
     );
     refuse(
         [](C& c) {

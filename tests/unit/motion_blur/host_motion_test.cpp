@@ -506,8 +506,8 @@ TEST_F(HostMotionCheck, EachBadProjectionIsNamed) {
         [&] { keys[1].clipFromView = math::clipFromViewOrthographic(1.0, 1.0, 0.1, 9.0); },
         name + "is orthographic, keys[0].clipFromView is not"
     );
-    refuse([&] { keys[1].clipFromView[2] *= -1.0; }, name + "looks along +Z");
-    refuse([&] { motion.aheadIsPlusZ = true; }, "keys[0].clipFromView looks along -Z");
+    refuse([&] { keys[1].clipFromView[2] *= -1.0; }, name + "faces +Z");
+    refuse([&] { motion.aheadIsPlusZ = true; }, "keys[0].clipFromView faces -Z");
 }
 
 TEST_F(HostMotionCheck, EachBadMoverIsNamed) {

@@ -90,7 +90,7 @@ TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
     }
 }
 
-TEST(MotionBlurSettings, BlocksLookAsFarAsTheirFiltersDo) {
+TEST(MotionBlurSettings, BlocksReachAsFarAsTheirFilters) {
     MotionBlurSettings settings;
     const auto margin = [&](const Method* method, float jitter) {
         settings.method = method;

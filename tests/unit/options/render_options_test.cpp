@@ -58,7 +58,7 @@ class RenderOptionsTest : public testing::Test {
 
 } // namespace
 
-TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
+TEST_F(RenderOptionsTest, TheDefaultsAreThoseOfTheHelp) {
     const RenderOptions options = accept(Words{});
     EXPECT_EQ(options.shot.width, 1280u);
     EXPECT_EQ(options.shot.height, 720u);
@@ -109,7 +109,7 @@ TEST_F(RenderOptionsTest, APartIsOneOfSeveralAndDrawsWhatOthersNeedNot) {
     refuse("--budget", part({"--part=1/2", "--budget=8"}));
 }
 
-TEST_F(RenderOptionsTest, AFilmsCodecTellsItsDepthAndWhatItLiesIn) {
+TEST_F(RenderOptionsTest, AFilmsCodecDeterminesItsDepthAndContainer) {
     const auto film = [&](Words more, const std::string& file = "film.mp4") {
         more.insert(more.begin(), {"--out=" + (mFolder / file).string(), "--frames=0:3"});
         return more;

@@ -57,7 +57,7 @@ TEST(ShutterOptions, TheDefaultIsASixtiethOfASecondAndChangesNothingElse) {
     EXPECT_EQ(shutter.objectScale, 1.0);
 }
 
-TEST(ShutterOptions, TheModeFollowsWhatIsGivenOrSaysItself) {
+TEST(ShutterOptions, TheModeFollowsWhatIsGivenOrIsGivenItself) {
     EXPECT_EQ(accept(Words{"--shutter-angle=90.0"}).mode, ShutterMode::Angle);
     EXPECT_EQ(accept(Words{"--exposure=0.1"}).mode, ShutterMode::Physical);
     const CameraShutter capped =
@@ -156,7 +156,7 @@ TEST(ShutterOptions, BlurScalesLieBetweenNothingAndDouble) {
     }
 }
 
-TEST(ShutterOptions, EachOptionIsReadAndTellsPicturesApart) {
+TEST(ShutterOptions, EachOptionIsReadAndDistinguishesPictures) {
     // Arguments whose fingerprints must all differ.
     const std::vector<std::vector<std::string>> lines = {
         {},

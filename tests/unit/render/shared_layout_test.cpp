@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The structs of shaders/**_shared.h are compiled twice. C++ packs their members, which are all
-// aligned to 4 bytes, and each header asserts the sizes it gets; here glslang is asked where it
+// aligned to 4 bytes, and each header asserts the sizes it gets; here glslang reports where it
 // puts every member.
 #include "engine/math/math.h"
 

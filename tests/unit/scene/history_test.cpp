@@ -151,7 +151,7 @@ TEST_F(History, ACutHoldsTheWholeWorld) {
     expectNear(dvec3(scene::worldFromEntity(mWorld, mCamera, 1.15)[3]), {0, 0, 9});
 }
 
-TEST_F(History, ATeleportedCameraStandsStillAndTheWorldMoves) {
+TEST_F(History, ATeleportedCameraIsStaticAndTheWorldMoves) {
     const ecs::Entity mover = addMover({1, 0, 0});
     teleport(mWorld, mCamera, {}, 0.97);
     EXPECT_FALSE(motion().isCut());

@@ -256,7 +256,7 @@ TEST_F(WorldFromEntity, MayMoveIsTrueOnlyForEntitiesThatCouldMove) {
     }
 }
 
-TEST(ComputeExposure, ThePhaseSaysWhereTheFrameTimeLies) {
+TEST(ComputeExposure, ThePhaseIsWhereTheFrameTimeLies) {
     expectInterval(computeExposure({0.5, ShutterPhase::Start}, 10.0), 10.0, 10.0, 10.5, 0.0);
     expectInterval(computeExposure({0.5, ShutterPhase::Centre}, 10.0), 9.75, 10.0, 10.25, 0.5);
     expectInterval(computeExposure({0.5, ShutterPhase::End}, 10.0), 9.5, 10.0, 10.0, 1.0);
@@ -452,7 +452,7 @@ TEST_F(Artist, TheNearestUpwardsCounts) {
     };
     EXPECT_TRUE(ridesWithTheCamera());
     mWorld.registry.add(child, MotionBlur{});
-    EXPECT_FALSE(ridesWithTheCamera()) << "its own says: as ever";
+    EXPECT_FALSE(ridesWithTheCamera()) << "its own setting: as ever";
 }
 
 TEST_F(Artist, LightsFollowTheObjectScaleAlone) {

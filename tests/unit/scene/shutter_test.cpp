@@ -71,7 +71,7 @@ TEST(ExposureSeconds, AnAngleIsAShareOfTheFrame) {
     EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 0.1), 0.2) << "longer than a frame";
 }
 
-TEST(ExposureSeconds, ACapHoldsThroughAHitchAndLetsFastFramesBe) {
+TEST(ExposureSeconds, ACapHoldsThroughAHitchAndLeavesFastFramesAlone) {
     const CameraShutter shutter = makeShutter(ShutterMode::Capped);
     EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 10.0), 1.0 / 48.0);
     EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, kInfinity), 1.0 / 48.0);

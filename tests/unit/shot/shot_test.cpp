@@ -124,10 +124,10 @@ TEST_F(Clips, ClipsOfOneNodePlayOneAtATime) {
     move(wave, hand, AnimationPath::Rotation);
     const uint32_t door = addClip("door");
     move(door, addNode());
-    const std::string said = select({});
+    const std::string printed = select({});
     expectActive({true, false, true, true}); // of walk and wave the later one, so idle may play
-    expectContains(said, "warning: scene.gltf: 1 of its 4 clips does not play");
-    expectContains(said, ": 1 'walk'; --clip chooses");
+    expectContains(printed, "warning: scene.gltf: 1 of its 4 clips does not play");
+    expectContains(printed, ": 1 'walk'; --clip chooses");
     EXPECT_FALSE(describeRestingClips(mWorld).empty());
     select({}, walk);
     expectActive({false, true, false, true});
@@ -157,20 +157,20 @@ TEST_F(Clips, NamedClipsPlayEvenIfTheyDriveTheSameProperties) {
     move(addClip("take"), node);
     move(addClip("turn"), node, AnimationPath::Rotation);
     EXPECT_EQ(select({"0", "turn"}), "");
-    const std::string said = select({"take"});
+    const std::string printed = select({"take"});
     expectActive({true, true, false});
-    expectContains(said, "warning: scene.gltf: --clip");
-    expectContains(said, "--clip: 0 'take' moves nodes that a later chosen clip moves");
+    expectContains(printed, "warning: scene.gltf: --clip");
+    expectContains(printed, "--clip: 0 'take' moves nodes that a later chosen clip moves");
 }
 
 TEST_F(Clips, AWarningAboutThousandsNamesAFew) {
     const ecs::Entity node = addNode();
     for (int i = 0; i < 2000; ++i)
         move(addClip(""), node);
-    const std::string said = select({});
-    expectContains(said, "1999 of its 2000 clips do not play,");
-    expectContains(said, "7 without a name, 1991 more;");
-    EXPECT_LT(said.size(), 400u);
+    const std::string printed = select({});
+    expectContains(printed, "1999 of its 2000 clips do not play,");
+    expectContains(printed, "7 without a name, 1991 more;");
+    EXPECT_LT(printed.size(), 400u);
 }
 
 TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {

@@ -96,8 +96,8 @@ class HostUndeclared {
 
   private:
     VkDevice mDevice;
-    uint32_t mAsked = 0;       ///< a bit for each image reported
-    uint32_t mExtentAsked = 0; ///< the same for its extent
+    uint32_t mReported = 0;       ///< a bit for each image reported
+    uint32_t mExtentReported = 0; ///< the same for its extent
 };
 
 } // namespace shutter::motion_blur

@@ -188,7 +188,8 @@ class Reprojection {
             fmt::format(
                 "by the last frame's depth, {} of static surfaces is not where "
                 "cameras "
-                "say, and no single mistake explains it: hold viewFromWorld, viewFromWorldBefore, "
+                "have it, and no single mistake explains it: hold viewFromWorld, "
+                "viewFromWorldBefore, "
                 "clipFromView and depth against what the picture was drawn with",
                 describeShare(double(mFound.other) / double(mFound.known()))
             )};

@@ -61,19 +61,19 @@ void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message
         const uint32_t bit = 1u << i;
         if (!named.image.image)
             continue;
-        if ((mAsked & bit) == 0 && named.image.usage == 0)
+        if ((mReported & bit) == 0 && named.image.usage == 0)
             append(usages, named.rule.name);
-        if ((mAsked & bit) == 0 && named.image.samples == 0)
+        if ((mReported & bit) == 0 && named.image.samples == 0)
             append(samples, named.rule.name);
-        mAsked |= bit;
+        mReported |= bit;
         // Padding and a chain of mip levels are less than that.
         constexpr double kMaxTimes = 1.8;
         constexpr uint64_t kMinPixels = 128 * 128; // padding counts for much of a smaller one
         const bool isLarge = uint64_t(picture.width) * picture.height >= kMinPixels;
-        if (isLarge && (mExtentAsked & bit) == 0 && named.image.extent.width == 0 &&
+        if (isLarge && (mExtentReported & bit) == 0 && named.image.extent.width == 0 &&
             measureMemory(mDevice, named, picture) > kMaxTimes) {
             append(extents, named.rule.name);
-            mExtentAsked |= bit;
+            mExtentReported |= bit;
         }
     }
     if (!usages.empty() || !samples.empty())

@@ -130,7 +130,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
     if (countOf(now, shader::kCheckDepthNegative) > 0)
         add(CheckKind::DepthNegative,
             fmt::format(
-                "{} is negative at {}; depth counts ahead of the camera: if view space looks along "
+                "{} is negative at {}; depth counts ahead of the camera: if view space faces "
                 "-Z, store -z",
                 name,
                 describeCount(now, shader::kCheckDepthNegative)
