@@ -40,9 +40,15 @@ constexpr OwnExtra kOwnExtras[] = {
     {"lens", "camera"}, {"motionBlur", "node"}, {"vertexWaves", "node"}, {"particles", "node"}};
 
 bool equalsButForCase(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](unsigned char left, unsigned char right) {
-        return std::tolower(left) == std::tolower(right);
-    });
+    return std::equal(
+        a.begin(),
+        a.end(),
+        b.begin(),
+        b.end(),
+        [](unsigned char left, unsigned char right) {
+            return std::tolower(left) == std::tolower(right);
+        }
+    );
 }
 
 /// Of objects with a name of ours, in other case or where it has no effect: a slip of the author.

@@ -152,7 +152,8 @@ std::vector<std::string> listGivenOptions(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_name();
         if (option->count() == 0 ||
-            std::ranges::find(kWithoutEffect, name) != std::end(kWithoutEffect))
+            std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), name) !=
+                std::end(kWithoutEffect))
             continue;
         const std::vector<std::string>& values = option->results();
         const char delimiter = option->get_delimiter();
