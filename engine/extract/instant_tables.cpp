@@ -103,7 +103,8 @@ class Builder {
         std::vector<math::ThinLens> lenses;
         for (const double s : mTimes)
             lenses.push_back(describeLens(s));
-        math::addLens(lenses, describeLens(mView.exposure.rasterTime), tables);
+        const uint32_t turn = mView.lensTurn.value_or(0);
+        math::addLens(lenses, describeLens(mView.exposure.rasterTime), turn, tables);
     }
 
     RasterRecord makeSecondRecord(const InstantFrame& second) const {

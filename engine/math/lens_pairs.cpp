@@ -42,11 +42,11 @@ std::vector<dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
 
 } // namespace
 
-std::vector<LensPair> spreadLensPairs(uint32_t samples) {
+std::vector<LensPair> spreadLensPairs(uint32_t samples, uint32_t turn) {
     SHUTTER_CHECK(samples > 0, "no samples");
     std::vector<LensPair> pairs(size_t(samples) * shader::kLensSets);
     for (uint32_t set = 0; set < shader::kLensSets; ++set) {
-        const std::vector<dvec2> places = spreadPlaces(samples, set);
+        const std::vector<dvec2> places = spreadPlaces(samples, set ^ turn % shader::kLensSets);
         for (uint32_t i = 0; i < samples; ++i)
             pairs[i * shader::kLensSets + set] = {(i + 0.5) / samples, places[i]};
     }

@@ -17,8 +17,10 @@ struct LensPair {
 
 /// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k, and has
 /// the same time in all of them. Each set is spread evenly over time and lens together; the places
-/// of all are spread evenly over the lens, and so are those from k = 4 n to 4 n + 3. \param samples
-/// of a set, above 0
-[[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples);
+/// of all are spread evenly over the lens, and so are those from k = 4 n to 4 n + 3.
+/// \param samples of a set, above 0
+/// \param turn of a frame among those whose mean is the picture: in kLensSets of them, one after
+/// the other, each set takes the places of all sets
+[[nodiscard]] std::vector<LensPair> spreadLensPairs(uint32_t samples, uint32_t turn = 0);
 
 } // namespace shutter::math

@@ -31,10 +31,12 @@ dvec2 measurePixelsPerUnit(const dmat4& clipFromView, const uvec2& sizePx) {
     return 0.5 * dvec2(sizePx) * dvec2(glm::length(dvec2(rows[0])), glm::length(dvec2(rows[1])));
 }
 
-void addLens(std::span<const ThinLens> lenses, const ThinLens& raster, InstantLayers& layers) {
+void addLens(
+    std::span<const ThinLens> lenses, const ThinLens& raster, uint32_t turn, InstantLayers& layers
+) {
     SHUTTER_CHECK(!lenses.empty(), "no samples");
     SHUTTER_CHECK_EQ(lenses.size(), layers.times.size());
-    const std::vector<LensPair> pairs = spreadLensPairs(uint32_t(lenses.size()));
+    const std::vector<LensPair> pairs = spreadLensPairs(uint32_t(lenses.size()), turn);
     std::vector<float> times;
     for (size_t i = 0; i < pairs.size(); ++i) {
         const ThinLens& lens = lenses[i / shader::kLensSets];

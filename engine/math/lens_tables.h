@@ -6,6 +6,7 @@
 #include "engine/math/math.h"
 #include "shaders/common/aperture.glsl"
 
+#include <cstdint>
 #include <span>
 
 namespace shutter::math {
@@ -27,6 +28,9 @@ struct ThinLens {
 /// elsewhere what a pinhole sees at rest.
 /// \param lenses one per sample, as layers.times is; at least one
 /// \param raster at the raster instant
-void addLens(std::span<const ThinLens> lenses, const ThinLens& raster, InstantLayers& layers);
+/// \param turn as for spreadLensPairs()
+void addLens(
+    std::span<const ThinLens> lenses, const ThinLens& raster, uint32_t turn, InstantLayers& layers
+);
 
 } // namespace shutter::math

@@ -2,6 +2,7 @@
 // The frames of a picture, and the effects of each.
 #include "engine/core/check.h"
 #include "game/shot/picture_drawer.h"
+#include "shaders/common/instant_motion_shared.h"
 
 #include <cmath>
 #include <utility>
@@ -202,8 +203,11 @@ extract::ViewRequest PictureDrawer::placeInPixel(const PictureRequest& request, 
     extract::ViewRequest view = request.frame.view;
     if (part.exposure)
         view.exposure = part.exposure->exposure;
-    if (isBox(request))
+    if (isBox(request)) {
+        static_assert(kBoxFrames % shader::kLensSets == 0, "each place of the lens counts alike");
+        view.lensTurn = part.done;
         return accumulate::makeSubpixel(view, part.done, part.total, request.seed);
+    }
     if (!usesTaa(request) || !part.isLastOfExposure)
         return view;
     const int64_t number = request.drawsFramesBefore ? scene::numberFrame(view.exposure)

@@ -63,6 +63,9 @@ struct InstantMotions {
     /// Each instant has a place of the lens (math::spreadLensPairs()), of which the raster is
     /// taken from the middle.
     bool hasLens = false;
+    /// Differences between pixels that see through other places of the lens are filtered; false:
+    /// they vanish in the mean of frames that take turns in the places.
+    bool filtersLens = true;
     bool hasLast = false;          ///< also of the raster in `history` or `lent`
     std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
     /// A tile may see more entities that move than its list holds (mayCrowdTiles()).

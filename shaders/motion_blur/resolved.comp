@@ -85,7 +85,7 @@ void main() {
     uint known = found + guessed;
     vec3 color = known > 0u ? sum / float(known) : fetchColor(kRasterLayer, pixel);
     float alpha = 1.0f;
-    if (kHasLens && found > 0u && search.hasOwnSet) alpha = alphaForFilter(confusionPx);
+    if (kHasLens && found > 0u && search.hasOwnSet) alpha = alphaForFilter(method, confusionPx);
     imageStore(uBlurred, pixel, vec4(color, alpha));
     if (kFindsEdges) listPixel(pixel, counts);
 }

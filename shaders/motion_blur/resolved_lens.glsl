@@ -61,7 +61,8 @@ SetStep stepOfSet(
 
 /// Alpha of a pixel whose samples have places of its own, for lens_filter.comp.
 /// \param confusionPx least diameter of a circle of confusion among them
-float alphaForFilter(float confusionPx) {
+float alphaForFilter(ResolvedParams method, float confusionPx) {
+    if (!has(method, kFiltersLens)) return 1.0f;
     float radius = min(kLensFilterShare * confusionPx, kMaxLensFilterPx);
     return radius >= kMinLensFilterPx ? -radius : 1.0f;
 }

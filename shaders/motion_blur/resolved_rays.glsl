@@ -99,7 +99,7 @@ bool mayTrace(uint classes, float shares[kSampleClasses]) {
 
 /// Alpha of a pixel of which samples were traced.
 float alphaOf(PixelSearch search, Mean mean) {
-    return kHasLens && search.hasOwnSet ? alphaForFilter(mean.confusionPx) : 1.0f;
+    return kHasLens && search.hasOwnSet ? alphaForFilter(method, mean.confusionPx) : 1.0f;
 }
 
 #endif

@@ -118,6 +118,8 @@ SHUTTER_CONST uint kHasSecondLayer = 2u; // the raster of the exposure's other e
 SHUTTER_CONST uint kHasWays = 4u;
 /// Each instant has a place of the lens: InstantMotions::lens.
 SHUTTER_CONST uint kHasLensPlaces = 8u;
+/// Pixels that have sets of such places are filtered (lens_filter.comp).
+SHUTTER_CONST uint kFiltersLens = 16u;
 
 struct ResolvedParams {
     uvec2 motions; // address of InstantMotions

@@ -93,7 +93,7 @@ void main() {
     else
         addShared(firstSample + 1u, count, inBlock, sums);
     float alpha = 1.0f;
-    if (kHasLens && noise > 0.0f) alpha = alphaForFilter(uBlockSamples[firstSample].place.x);
+    if (kHasLens && noise > 0.0f) alpha = alphaForFilter(method, uBlockSamples[firstSample].place.x);
     for (uint row = 0u; row < kRows; ++row) {
         ivec2 to = pixel + ivec2(0, row * kThreadRows);
         if (all(lessThan(uvec2(to), params.sizePx)))

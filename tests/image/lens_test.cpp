@@ -378,6 +378,33 @@ TEST_F(LensLaw, ResolvedIsNearTheMeanOfManyPicturesWithAndWithoutMotion) {
     }
 }
 
+TEST_F(LensLaw, FramesWhoseMeanIsThePictureTakeTurnsInThePlacesOfTheLens) {
+    SceneBuilder scene;
+    scene.setPerspective(kYFov);
+    scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.2, .focusDistance = 2.0});
+    scene.add(test::makeQuad(6, 4, scene.addWaves()), {.position = {0, 0, -5}});
+    Shot shot{
+        .method = "accumulate",
+        .width = 96,
+        .height = 54,
+        .exposureSeconds = 0.0,
+        .instants = 1024,
+        .pixel = accumulate::PixelModel::Box};
+    const image::Image many = test::renderOnce(device(), scene, shot).color;
+    shot.method = "resolved";
+    shot.settings.sampleCount = 4;
+    test::Frames frames(device(), scene);
+    const auto draw = [&](game::AntiAliasing antiAliasing) {
+        return frames.draw(shot, [&](game::PictureRequest& request) {
+            request.antiAliasing = antiAliasing;
+        });
+    };
+    const render::FrameResult mean = draw(game::AntiAliasing::Box);
+    EXPECT_GE(image::computePsnr(mean.color, many), 41.5);
+    EXPECT_FALSE(test::hasPass(mean, "filter lens"));
+    EXPECT_TRUE(test::hasPass(draw(game::AntiAliasing::None), "filter lens"));
+}
+
 TEST_F(LensLaw, ResolvedHasTheSameBitsInEachRunAndOrderOfEntities) {
     std::vector<image::Image> pictures;
     for (const bool isReversed : {false, false, true}) {

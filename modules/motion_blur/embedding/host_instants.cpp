@@ -127,7 +127,7 @@ class Builder {
         for (const BetweenKeys& place : mPlaces)
             lenses.push_back(describeLens(mCamera.at(place), place));
         const BetweenKeys raster{mRasterKey, mRasterKey, 0.0};
-        math::addLens(lenses, describeLens(mCamera.atKey(mRasterKey), raster), layers);
+        math::addLens(lenses, describeLens(mCamera.atKey(mRasterKey), raster), 0, layers);
     }
 
     /// Adds the row unless it stays where the layer has it.

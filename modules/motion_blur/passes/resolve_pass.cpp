@@ -259,11 +259,12 @@ ResolvePassOutputs ResolvePass::add(
     const RasterHistory* const history = motions.history;
     const bool isKept = history && history->holds(params.sizePx);
     const bool hasLast = motions.hasLast && (isKept || motions.lent);
+    const bool filtersLens = motions.hasLens && motions.filtersLens;
     auto own = params.getMethod<shader::ResolvedParams>();
-    own.has = (hasLast ? shader::kHasLastLayer : 0u) |
-              (motions.second ? shader::kHasSecondLayer : 0u) |
-              (motions.drawWays ? shader::kHasWays : 0u) |
-              (motions.hasLens ? shader::kHasLensPlaces : 0u);
+    own.has =
+        (hasLast ? shader::kHasLastLayer : 0u) | (motions.second ? shader::kHasSecondLayer : 0u) |
+        (motions.drawWays ? shader::kHasWays : 0u) |
+        (motions.hasLens ? shader::kHasLensPlaces : 0u) | (filtersLens ? shader::kFiltersLens : 0u);
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
@@ -273,6 +274,7 @@ ResolvePassOutputs ResolvePass::add(
     search.layers = mLayers.add(graph, inputs, params, hasLast);
     search.motionDepth = inputs.motionDepth;
     search.hasLens = motions.hasLens;
+    search.filtersLens = filtersLens;
     search.edgeSurface = inputs.edgeSurface;
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
@@ -353,7 +355,7 @@ ResolvePassOutputs ResolvePass::add(
     outputs.stillPixelsBy =
         readsKept && inputs.mayWriteColor() ? StaticPixelsBy::InPlace : shared.stillPixelsBy;
     graph::ImageHandle target = inputs.target;
-    if (motions.hasLens && target.isValid()) {
+    if (filtersLens && target.isValid()) {
         // The filter behind the search writes into it, and reads another image.
         target = {};
         outputs.stillPixelsBy = StaticPixelsBy::WholeCopy;
@@ -476,7 +478,7 @@ MotionBlurOutputs ResolvePass::end(
         params,
         found.stillPixelsBy
     );
-    if (found.search.hasLens)
+    if (found.search.filtersLens)
         outputs.color = mLensFilter.add(graph, outputs.color, inputs.target, params);
     outputs.surfaces = found.surfaces;
     const SurfaceLayersOutputs& layers = found.search.layers;

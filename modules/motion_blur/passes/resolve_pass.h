@@ -36,6 +36,7 @@ struct SearchResources {
     std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
     graph::BufferHandle counters;             ///< shader::ResolvedCounters
     bool hasLens = false;                     ///< InstantMotions::hasLens
+    bool filtersLens = false;                 ///< so does LensFilter
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);

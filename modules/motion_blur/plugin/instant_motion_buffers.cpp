@@ -76,6 +76,7 @@ InstantMotions InstantMotionBuffers::declare(const render::PostContext& context)
     motions.table = writeInstantLayers(mDevice, mTables, mBuffers.at(context.slot));
     motions.instantCount = mInstantCount;
     motions.hasLens = !mTables.lens.empty();
+    motions.filtersLens = !context.view.lensTurn;
     motions.hasLast = mTables.last.has_value();
     motions.deforms = {
         mTables.raster.deforms,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
 namespace shutter::math {
 namespace {
@@ -61,6 +62,31 @@ TEST(LensPairs, SetsOfAnyNumberOfSamplesLieAboutTheMiddleOfTheLens) {
             EXPECT_NEAR(mean.y, 0.5, 0.5 / samples) << samples << " " << set;
         }
     }
+}
+
+TEST(LensPairs, FramesThatTakeTurnsGiveEachSetThePlacesOfAllSets) {
+    for (const uint32_t samples : {1u, 15u, 16u}) {
+        const auto once = spreadLensPairs(samples);
+        for (const uint32_t set : {0u, 1u, 10u}) {
+            std::multiset<std::pair<double, double>> places;
+            for (uint32_t turn = 0; turn < kSets; ++turn) {
+                const auto pairs = spreadLensPairs(samples, turn);
+                for (uint32_t i = 0; i < samples; ++i) {
+                    const LensPair& pair = pairs[i * kSets + set];
+                    places.emplace(pair.place.x, pair.place.y);
+                    EXPECT_EQ(pair.light, once[i * kSets].light);
+                }
+            }
+            std::multiset<std::pair<double, double>> all;
+            for (const LensPair& pair : once)
+                all.emplace(pair.place.x, pair.place.y);
+            EXPECT_EQ(places, all) << samples << " " << set;
+        }
+    }
+    const auto first = spreadLensPairs(15, 3);
+    const auto again = spreadLensPairs(15, 3 + kSets);
+    for (size_t i = 0; i < first.size(); ++i)
+        EXPECT_EQ(first[i].place, again[i].place) << i;
 }
 
 } // namespace

@@ -12,7 +12,7 @@ InstantLayers addTo(const ThinLens& lens) {
     InstantLayers layers;
     layers.times = {0.5f};
     const std::vector<ThinLens> lenses = {lens};
-    addLens(lenses, lens, layers);
+    addLens(lenses, lens, 0, layers);
     return layers;
 }
 
