@@ -260,7 +260,7 @@ TEST_F(EmbeddedAhead, AWarmUpForManyRowsHasThePipelinesOfFewAndOfMany) {
         plan.settings.history = hasHistory;
         const core::Status done = blur->warmUp(plan);
         ASSERT_TRUE(done.ok()) << done.error().message;
-        const Asked<&vkCreateComputePipelines> pipelines;
+        const LibraryCalls<&vkCreateComputePipelines> pipelines;
         for (const uint32_t rows : {1u, plan.rowCount})
             for (const double way : {0.0, 0.5}) { // of the camera over the exposure
                 std::array<motion_blur::HostCameraKey, 2> keys = {host.key, host.key};
