@@ -35,8 +35,10 @@ SurfacePoint pointOfFragment() {
     point.uvDensity[1] = textureDensity(dx, dy, uvDx.zw, uvDy.zw);
     point.color = inColor;
 #ifdef SHUTTER_SEVERAL_SAMPLES
-    point.uvPerColumn = uvDx;
-    point.uvPerRow = uvDy;
+    point.uvPerColumn[0] = uvDx.xy;
+    point.uvPerColumn[1] = uvDx.zw;
+    point.uvPerRow[0] = uvDy.xy;
+    point.uvPerRow[1] = uvDy.zw;
 #endif
     return point;
 }

@@ -24,8 +24,8 @@ struct SurfacePoint {
     float uvDensity[2];   // area in texture coordinates per square metre
     vec4 color;
 #ifdef SHUTTER_SEVERAL_SAMPLES
-    vec4 uvPerColumn; // uv[0] and uv[1]: difference to the pixel on the right
-    vec4 uvPerRow;    // ... and to the one below
+    vec2 uvPerColumn[2]; // difference to the pixel on the right
+    vec2 uvPerRow[2];    // ... and to the one below
 #endif
 };
 
@@ -55,14 +55,13 @@ BlendShares blendSharesOf(uint flags, float alpha) {
     return BlendShares(share, share);
 }
 
-/// Coordinates in a texture, without its offset. \param sets the vertex's two sets, or their differences
-vec2 transformUv(TextureRef ref, vec4 sets) {
-    vec2 uv = ref.uvSet == 0u ? sets.xy : sets.zw;
+/// Coordinates in a texture, without its offset. \param uv the vertex's, or a difference
+vec2 transformUv(TextureRef ref, vec2 uv) {
     return ref.axes.xy * uv.x + ref.axes.zw * uv.y;
 }
 
 vec2 textureUv(TextureRef ref, SurfacePoint point) {
-    return transformUv(ref, vec4(point.uv[0], point.uv[1])) + ref.offset;
+    return transformUv(ref, point.uv[ref.uvSet]) + ref.offset;
 }
 
 float textureLevelOf(
@@ -88,8 +87,8 @@ vec4 sampleColor(
 ) {
     float level = max(floor(textureLevelOf(frame, ref, point, footprint, cosine) - 0.5f), 0.0f);
     vec2 uv = textureUv(ref, point);
-    vec2 perColumn = transformUv(ref, point.uvPerColumn);
-    vec2 perRow = transformUv(ref, point.uvPerRow);
+    vec2 perColumn = transformUv(ref, point.uvPerColumn[ref.uvSet]);
+    vec2 perRow = transformUv(ref, point.uvPerRow[ref.uvSet]);
     vec4 sum = vec4(0.0f);
     for (uint i = 0u; i < kSampleCount; ++i) {
         vec2 fromCentre = placeOfSample(i) - 0.5f;
