@@ -48,6 +48,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::BrightPoint) == 52);
 static_assert(sizeof(shutter::shader::PointHeader) == 4);
+static_assert(sizeof(shutter::shader::RegionHeader) == 4);
 #endif
 
 #endif
