@@ -291,21 +291,31 @@ TEST_F(TaaEdge, ASecondRasterMakesSilhouettesNoWorse) {
     EXPECT_LT(measureError(AntiAliasing::Taa), 1.05 * one);
 }
 
-TEST_F(TaaEdge, EdgesInATextureAreSmooth) {
+TEST_F(TaaEdge, EdgesInTexturesOfColorAndEmissionAreSmooth) {
     slideCamera(1.5);
     const scene::AssetIndex texture = mScene.addWaveTexture(256);
     std::vector<uint8_t>& rgba = mScene.world.assets.images.back().rgba;
     for (size_t i = 0; i < rgba.size(); ++i) // stripes of four texels, of about a pixel each
         rgba[i] = i / 16 % 2 == 0 || i % 4 == 3 ? 255 : 0;
+    scene::Material colored;
+    colored.unlit = true;
+    colored.baseColor.texture = texture;
+    scene::Material glowing;
+    glowing.baseColorFactor = {0.0f, 0.0f, 0.0f, 1.0f};
+    glowing.emissive = math::vec3(1.0f);
+    glowing.emissiveTexture.texture = texture;
+    const scene::AssetIndex material = mScene.addMaterial(colored);
     mScene.add(
-        test::makeQuad(40.0, 40.0, mScene.addTextured(texture)),
+        test::makeQuad(40.0, 40.0, material),
         {.position = {0, 0, -9}, .rotation = glm::angleAxis(0.3, math::dvec3(0, 0, 1))}
     );
-    for (const std::string_view method : {"sharp", "resolved"}) {
-        mMethod = method;
-        EXPECT_LT(measureError(AntiAliasing::Taa), 0.7 * measureError(AntiAliasing::None))
-            << method;
-    }
+    for (const scene::Material& one : {colored, glowing})
+        for (const std::string_view method : {"sharp", "resolved"}) {
+            mScene.world.assets.materials[material] = one;
+            mMethod = method;
+            EXPECT_LT(measureError(AntiAliasing::Taa), 0.7 * measureError(AntiAliasing::None))
+                << method << (one.unlit ? ", colour" : ", emission");
+        }
 }
 
 TEST_F(TaaEdge, AWireThinnerThanAPixelKeepsItsLight) {
