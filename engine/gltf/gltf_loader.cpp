@@ -39,7 +39,7 @@ struct OwnExtra {
 constexpr OwnExtra kOwnExtras[] = {
     {"lens", "camera"}, {"motionBlur", "node"}, {"vertexWaves", "node"}, {"particles", "node"}};
 
-bool equalsButForCase(std::string_view a, std::string_view b) {
+bool areEqualExceptForCase(std::string_view a, std::string_view b) {
     return std::equal(
         a.begin(),
         a.end(),
@@ -51,8 +51,8 @@ bool equalsButForCase(std::string_view a, std::string_view b) {
     );
 }
 
-/// Of objects with a name of ours, in other case or where it has no effect: a slip of the author.
-/// Others' extras are theirs.
+/// Warns of objects whose name differs from one of ours in case alone, or that are in the extras of
+/// a part where they have no effect: likely a mistake. Other programs' extras cause no warning.
 void warnOfMisplacedExtras(
     GltfContext& context,
     const tinygltf::Value& extras,
@@ -63,7 +63,7 @@ void warnOfMisplacedExtras(
         return;
     for (const std::string& key : extras.Keys())
         for (const OwnExtra& own : kOwnExtras)
-            if (equalsButForCase(key, own.name) && (key != own.name || parent != own.parent) &&
+            if (areEqualExceptForCase(key, own.name) && (key != own.name || parent != own.parent) &&
                 extras.Get(key).IsObject())
                 context.warnings.add(fmt::format(
                     "{}.extras.{} is not used: it is '{}' in the extras of a {}",
