@@ -3,10 +3,14 @@
 
 #include "spirv/render/gbuffer.frag.h"
 #include "spirv/render/gbuffer.vert.h"
+#include "spirv/render/gbuffer_normals.frag.h"
 #include "spirv/render/gbuffer_samples.frag.h"
+#include "spirv/render/gbuffer_samples_normals.frag.h"
 #include "spirv/render/sky.frag.h"
 #include "spirv/render/sky.vert.h"
+#include "spirv/render/sky_normals.frag.h"
 #include "spirv/render/sky_samples.frag.h"
+#include "spirv/render/sky_samples_normals.frag.h"
 
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
@@ -32,6 +36,20 @@ uint32_t blendConstantOf(Variant variant) {
     return variant == Variant::Premultiplied ? 2 : 0;
 }
 
+/// Code of a fragment shader for each kind of target.
+struct FragmentShaders {
+    std::span<const uint32_t> plain;
+    std::span<const uint32_t> withNormals;
+    std::span<const uint32_t> samples;
+    std::span<const uint32_t> samplesWithNormals;
+
+    [[nodiscard]] std::span<const uint32_t> choose(const GBufferPass::Targets& targets) const {
+        if (targets.samples > 1)
+            return targets.writesNormals ? samplesWithNormals : samples;
+        return targets.writesNormals ? withNormals : plain;
+    }
+};
+
 gpu::GraphicsPipelineDesc describeGeometry(
     const gpu_scene::GpuScene& scene,
     Variant variant,
@@ -41,17 +59,23 @@ gpu::GraphicsPipelineDesc describeGeometry(
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
-    desc.fragmentSpirv = targets.samples > 1
-                             ? std::span<const uint32_t>(render_gbuffer_samples_frag)
-                             : render_gbuffer_frag;
+    desc.fragmentSpirv =
+        FragmentShaders{
+            render_gbuffer_frag,
+            render_gbuffer_normals_frag,
+            render_gbuffer_samples_frag,
+            render_gbuffer_samples_normals_frag}
+            .choose(targets);
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {
         variant == Variant::Masked, blendConstantOf(variant), moves, targets.mayHaveShadows};
     if (targets.samples > 1)
-        desc.colorFormats = {kColorFormat, kSampleSurfaceFormat, kSampleNormalFormat};
+        desc.colorFormats = {kColorFormat, kSampleSurfaceFormat};
     else
-        desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
+        desc.colorFormats = {kColorFormat, kMotionDepthFormat, kEntityIdFormat};
+    if (targets.writesNormals)
+        desc.colorFormats.push_back(targets.samples > 1 ? kSampleNormalFormat : kNormalFormat);
     desc.depthFormat = kDepthFormat;
     desc.samples = targets.samples;
     desc.depthWrite = blendConstantOf(variant) == 0;
@@ -68,7 +92,12 @@ describeSky(const gpu_scene::GpuScene& scene, const GBufferPass::Targets& target
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
     desc.fragmentSpirv =
-        targets.samples > 1 ? std::span<const uint32_t>(render_sky_samples_frag) : render_sky_frag;
+        FragmentShaders{
+            render_sky_frag,
+            render_sky_normals_frag,
+            render_sky_samples_frag,
+            render_sky_samples_normals_frag}
+            .choose(targets);
     desc.specialization = {};
     desc.depthCompare = VK_COMPARE_OP_EQUAL; // where the depth is still the cleared, infinite one
     desc.depthWrite = false;
@@ -173,7 +202,10 @@ GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : mDevice(device), mScene(scene), mSplit(device), mMaySample(maySample(device)) {}
 
 const GBufferPass::Drawers& GBufferPass::findDrawers(const Targets& targets) {
-    auto& found = mDrawers.at((targets.mayHaveShadows ? 1 : 0) + (targets.samples > 1 ? 2 : 0));
+    auto& found = mDrawers.at(
+        (targets.mayHaveShadows ? 1 : 0) + (targets.samples > 1 ? 2 : 0) +
+        (targets.writesNormals ? 4 : 0)
+    );
     if (found)
         return *found;
     Drawers& drawers = found.emplace();
@@ -192,7 +224,7 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
     const bool mayHaveShadows = (frame.constants.flags & shader::kFrameShadows) != 0;
     const bool isSampled = source.samplesEdges && mMaySample;
     const uint32_t samples = isSampled ? shader::kSampleCount : 1;
-    const Drawers& drawers = findDrawers({mayHaveShadows, samples});
+    const Drawers& drawers = findDrawers({mayHaveShadows, samples, source.writesNormals});
     const auto create = [&](const char* label, VkFormat format) {
         return graph.createImage(
             label,
@@ -207,9 +239,11 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
     targets.color = create("color", kColorFormat);
     if (isSampled) {
         sampled.surface = create("sample surfaces", kSampleSurfaceFormat);
-        sampled.normal = create("sample normals", kSampleNormalFormat);
+        if (source.writesNormals)
+            sampled.normal = create("sample normals", kSampleNormalFormat);
     } else {
-        targets.normal = create("normal", kNormalFormat);
+        if (source.writesNormals)
+            targets.normal = create("normal", kNormalFormat);
         targets.motionDepth = create("motion depth", kMotionDepthFormat);
         targets.entityId = create("entity id", kEntityIdFormat);
     }
@@ -229,12 +263,13 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
             targets.color = builder.colorTarget(targets.color, zero);
             if (isSampled) {
                 sampled.surface = builder.colorTarget(sampled.surface, none);
-                sampled.normal = builder.colorTarget(sampled.normal, none);
             } else {
-                targets.normal = builder.colorTarget(targets.normal, zero);
                 targets.motionDepth = builder.colorTarget(targets.motionDepth, zero);
                 targets.entityId = builder.colorTarget(targets.entityId, none);
             }
+            graph::ImageHandle& normal = isSampled ? sampled.normal : targets.normal;
+            if (normal.isValid())
+                normal = builder.colorTarget(normal, isSampled ? none : zero);
             (void)builder.depthTarget(depth, 0.0f);
         },
         [&drawers, &frame, &scene, constants = source.frameConstants](

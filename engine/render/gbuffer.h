@@ -24,6 +24,7 @@ class GBufferPass {
     struct Targets {
         bool mayHaveShadows = false; ///< false: for frames in which no light casts any
         uint32_t samples = 1;        ///< per pixel, 1 or shader::kSampleCount
+        bool writesNormals = false;
     };
 
     /// The pipelines of one variant.
@@ -50,13 +51,14 @@ class GBufferPass {
         const gpu_scene::GpuScene& scene;
         std::span<const graph::BufferHandle> reads; ///< by addresses; invalid ones are passed over
         VkDeviceAddress frameConstants = 0;
-        bool samplesEdges = false; ///< ViewRequest::samplesEdges
-        bool keepsEdges = false;   ///< GBuffer::edgeSurface is read
+        bool samplesEdges = false;  ///< ViewRequest::samplesEdges
+        bool keepsEdges = false;    ///< GBuffer::edgeSurface is read
+        bool writesNormals = false; ///< GBuffer::normal is read
     };
 
     /// Declares the pass; the first frame with shadows, and the first without, makes pipelines, and
-    /// so does the first with several samples. What `source` refers to must live until it has been
-    /// recorded.
+    /// so does the first with several samples or with normals. What `source` refers to must live
+    /// until it has been recorded.
     /// \param name of the pass
     [[nodiscard]] GBuffer
     declare(graph::Graph& graph, const std::string& name, const Source& source);
@@ -72,8 +74,8 @@ class GBufferPass {
 
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    /// By whether lights may cast shadows, and 2 more with several samples.
-    std::array<std::optional<Drawers>, 4> mDrawers;
+    /// By whether lights may cast shadows, 2 more with several samples, and 4 more with normals.
+    std::array<std::optional<Drawers>, 8> mDrawers;
     SampleSplit mSplit;
     bool mMaySample; ///< the device can draw several samples per pixel
 };

@@ -18,7 +18,8 @@ inline constexpr VkFormat kEdgeSurfaceFormat = VK_FORMAT_R32G32B32A32_UINT;
 /// for motion to a hundredth of a pixel.
 struct GBuffer {
     graph::ImageHandle color;       ///< RGBA16F, linear HDR, at most kMaxColor
-    graph::ImageHandle normal;      ///< RGBA16F, xyz unit, world axes; 0 for the background
+    graph::ImageHandle normal;      ///< RGBA16F, xyz unit, world axes; 0 for the background.
+                                    ///< Invalid unless an effect or a picture needs it
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy pixels open to close, depth metres along
                                     ///< the view; with edgeSurface, a bit for each sample that
                                     ///< edgeSurface covers, as a number

@@ -190,6 +190,9 @@ class PostEffect {
     /// are then those of one surface, otherwise the mean of all samples. Only used when it runs.
     [[nodiscard]] virtual bool readsEdges() const { return false; }
 
+    /// Returns whether it reads GBuffer::normal of the frame's own raster. Only used when it runs.
+    [[nodiscard]] virtual bool readsNormals() const { return false; }
+
     /// Whether particles are drawn over its picture, with their motion over the exposure, and not
     /// into the raster; also used if it does not run.
     [[nodiscard]] virtual core::Decision decideParticleDraw(const ViewFacts&) const { return {}; }

@@ -70,6 +70,16 @@ decideParticles(const extract::ParticleTables& particles, const extract::ViewReq
     return {true, count + (particles.isInstant ? " at its instant" : " in its exposure")};
 }
 
+/// Name of the intermediate GBuffer::normal.
+constexpr const char* kNormals = "normal";
+
+/// Names of the intermediates that the frame reads back or shows.
+std::set<std::string> listWanted(const FrameRequest& request) {
+    std::set<std::string> wanted = request.intermediates;
+    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
+    return wanted;
+}
+
 graph::ImageHandle
 declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t height) {
     struct Data {
@@ -186,7 +196,7 @@ void Renderer::publishParticles(
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
     intermediates.publish("motion", gbuffer.motionDepth);
     intermediates.publish("depth", gbuffer.motionDepth);
-    intermediates.publish("normal", gbuffer.normal);
+    intermediates.publish(kNormals, gbuffer.normal);
     intermediates.publish("mesh_id", gbuffer.entityId);
 }
 
@@ -386,7 +396,13 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     scene.gbuffer = mGBufferPass.declare(
         graph,
         "G-buffer",
-        {frame, mScene, reads, rays.frameConstants, running.samplesEdges, running.readsEdges}
+        {frame,
+         mScene,
+         reads,
+         rays.frameConstants,
+         running.samplesEdges,
+         running.readsEdges,
+         running.readsNormals || listWanted(request).contains(kNormals)}
     );
     if (!running.particles.run && !particles.empty())
         scene.gbuffer.color = declareParticles(
@@ -455,9 +471,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         );
     }
     const DeclaredScene scene = declareScene(parts);
-    std::set<std::string> wanted = request.intermediates;
-    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
-    Intermediates intermediates(std::move(wanted));
+    Intermediates intermediates(listWanted(request));
     publishGBuffer(scene.gbuffer, intermediates);
     publishParticles(parts, scene, intermediates);
     PostContext context{

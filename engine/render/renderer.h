@@ -172,6 +172,7 @@ class Renderer {
         bool mayTrace = false;     ///< in another frame, if not in this
         bool samplesEdges = false; ///< the frame is drawn with several samples per pixel
         bool readsEdges = false;   ///< PostEffect::readsEdges of one of them
+        bool readsNormals = false; ///< PostEffect::readsNormals likewise
         core::Decision particles;  ///< run: they are drawn with their motion over the exposure
                                    ///< ......
         size_t particlesAt = 0;    ///< ... after as many of `effects`

@@ -52,6 +52,7 @@ Renderer::RunningEffects Renderer::askEffects(
         const core::Decision lastRaster = effect->askLastRaster(context);
         running.effects.push_back({effect, secondRaster.run, lastRaster.run});
         running.readsEdges = running.readsEdges || effect->readsEdges();
+        running.readsNormals = running.readsNormals || effect->readsNormals();
         running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
         join(running.timedRays, effect->name(), timedRays);

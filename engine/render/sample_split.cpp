@@ -80,16 +80,21 @@ struct Data {
 
 void readSamples(graph::PassBuilder& builder, const SampleSplit::Samples& samples) {
     for (const graph::ImageHandle image : {samples.color, samples.surface, samples.normal})
-        builder.read(image, Access::SampledCompute);
+        if (image.isValid())
+            builder.read(image, Access::SampledCompute);
 }
 
 gpu::BindingList
 bindBoth(const gpu::Device& device, const graph::PassResources& resources, const Data& data) {
     gpu::BindingList bindings;
-    const SampleSplit::Samples& from = data.samples;
+    SampleSplit::Samples from = data.samples;
+    GBuffer to = data.split;
+    if (!from.normal.isValid()) { // not used then
+        from.normal = from.surface;
+        to.normal = to.color;
+    }
     for (const graph::ImageHandle image : {from.color, from.surface, from.normal})
         bindings.sampled(resources.view(image), device.nearestSampler());
-    const GBuffer& to = data.split;
     for (const graph::ImageHandle image : {to.color, to.normal, to.motionDepth, to.entityId})
         bindings.storage(resources.image(image));
     return bindings;
@@ -105,7 +110,10 @@ GBuffer SampleSplit::declare(
 ) const {
     const graph::TransientImageDesc size = graph.describeImage(samples.color);
     const shader::SplitParams params{
-        {size.width, size.height}, keepsEdges ? 1u : 0u, hasBlended ? 1u : 0u};
+        {size.width, size.height},
+        keepsEdges ? 1u : 0u,
+        hasBlended ? 1u : 0u,
+        samples.normal.isValid() ? 1u : 0u};
     const EdgeList list = declareList(graph, params.sizePx);
     const Data& whole = graph.addPass<Data>(
         "split samples",
@@ -119,7 +127,8 @@ GBuffer SampleSplit::declare(
             readSamples(builder, samples);
             data.samples = samples;
             data.split.color = create("color", kColorFormat);
-            data.split.normal = create("normal", kNormalFormat);
+            if (samples.normal.isValid())
+                data.split.normal = create("normal", kNormalFormat);
             data.split.motionDepth = create("motion depth", kMotionDepthFormat);
             data.split.entityId = create("entity id", kEntityIdFormat);
             data.edges = {
@@ -151,7 +160,8 @@ GBuffer SampleSplit::declare(
                           &data.split.normal,
                           &data.split.motionDepth,
                           &data.split.entityId})
-                        *image = builder.write(*image, Access::StorageWrite);
+                        if (image->isValid())
+                            *image = builder.write(*image, Access::StorageWrite);
                     data.split.edgeSurface = builder.write(
                         graph.createImage(
                             "edge surface", {size.width, size.height, kEdgeSurfaceFormat}

@@ -18,7 +18,7 @@ class SampleSplit {
         /// Of kSampleSurfaceFormat: bits of motion and depth as in GBuffer::motionDepth, and the
         /// word of the entity (rowOfSample()).
         graph::ImageHandle surface;
-        graph::ImageHandle normal; ///< of kSampleNormalFormat: packNormal()
+        graph::ImageHandle normal; ///< of kSampleNormalFormat: packNormal(); invalid: none
     };
 
     /// \param keepsEdges GBuffer::edgeSurface is read: a pixel there has its own surface's colour

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a fragment leaves in the G-buffer. With SHUTTER_SEVERAL_SAMPLES: what it leaves for
-// split_samples.comp, in fewer and narrower images, since each sample is written by itself.
+// split_samples.comp, in fewer and narrower images, since each sample is written by itself. Normals
+// only with SHUTTER_WRITES_NORMALS.
 #ifndef SHUTTER_GBUFFER_TARGETS_GLSL
 #define SHUTTER_GBUFFER_TARGETS_GLSL
 
@@ -12,7 +13,9 @@ layout(location = 0) out vec4 outColor;
 #include "render/split_samples_shared.h"
 
 layout(location = 1) out uvec4 outSurface; // bits of motion and depth, and the entity's word
+#ifdef SHUTTER_WRITES_NORMALS
 layout(location = 2) out uint outNormal;   // packNormal()
+#endif
 
 /// Differs, as a rule, between triangles of one entity that cover a pixel together.
 uint mixBits(vec2 motion, float depth) {
@@ -22,28 +25,33 @@ uint mixBits(vec2 motion, float depth) {
 
 void writeTargets(vec4 color, vec3 normal, vec2 motion, float depth, uint row) {
     outColor = color;
-    outNormal = 0u;
     uint word = row;
     if (row != kNoEntity) {
-        outNormal = packNormal(normal);
         bool coversAll = gl_SampleMaskIn[0] == int((1u << kSampleCount) - 1u);
         word |= mixBits(motion, depth) >> 25 << kSampleRowBits;
         word |= coversAll ? 0u : kSampleOfPart;
     }
     outSurface = uvec4(floatBitsToUint(vec3(motion, depth)), word);
+#ifdef SHUTTER_WRITES_NORMALS
+    outNormal = row != kNoEntity ? packNormal(normal) : 0u;
+#endif
 }
 
 #else
 
-layout(location = 1) out vec4 outNormal;
-layout(location = 2) out vec4 outMotionDepth;
-layout(location = 3) out uint outEntityId;
+layout(location = 1) out vec4 outMotionDepth;
+layout(location = 2) out uint outEntityId;
+#ifdef SHUTTER_WRITES_NORMALS
+layout(location = 3) out vec4 outNormal;
+#endif
 
 void writeTargets(vec4 color, vec3 normal, vec2 motion, float depth, uint row) {
     outColor = color;
-    outNormal = vec4(normal, 0.0f);
     outMotionDepth = vec4(motion, depth, 0.0f);
     outEntityId = row;
+#ifdef SHUTTER_WRITES_NORMALS
+    outNormal = vec4(normal, 0.0f);
+#endif
 }
 
 #endif

@@ -71,6 +71,8 @@ class HostOfTheGBuffer : public render::PostEffect {
         return {true, "the test reads it"};
     }
 
+    [[nodiscard]] bool readsNormals() const override { return true; }
+
     void declare(render::PostContext& context) override {
         struct Data {
             graph::ImageHandle color, motionDepth, normal, entityId;

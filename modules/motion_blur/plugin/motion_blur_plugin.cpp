@@ -130,6 +130,10 @@ bool MotionBlurPlugin::readsEdges() const {
     return settings().method->readsInstantMotions;
 }
 
+bool MotionBlurPlugin::readsNormals() const {
+    return settings().method->readsNormal;
+}
+
 core::Decision MotionBlurPlugin::askLayer(const render::ViewFacts&) const {
     if (!settings().method->readsRaster)
         return {false, "its method draws them itself"};

@@ -55,6 +55,7 @@ class MotionBlurPlugin : public render::PostEffect {
 
     /// True for methods with lookups.
     [[nodiscard]] bool readsEdges() const override;
+    [[nodiscard]] bool readsNormals() const override;
     /// For methods that blur the raster.
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
 
