@@ -80,8 +80,14 @@ render::PostEffect* PictureDrawer::prepareLensFilter(const PictureRequest& reque
         return nullptr;
     Slot& slot = mSlots[request.slot];
     if (!slot.depthOfField)
-        slot.depthOfField = std::make_unique<depth_of_field::DepthOfField>(mDevice);
-    slot.depthOfField->configure({request.method.method->lensFilter, request.method.lensTaps});
+        slot.depthOfField = std::make_unique<depth_of_field::DepthOfField>(
+            mDevice, mRenderer.scene().textureLayout()
+        );
+    depth_of_field::DepthOfFieldSettings settings{
+        request.method.method->lensFilter, request.method.lensTaps};
+    if (settings.filter->tracesRays)
+        settings.rays = request.method.samples;
+    slot.depthOfField->configure(settings);
     return slot.depthOfField.get();
 }
 

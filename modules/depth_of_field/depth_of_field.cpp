@@ -17,6 +17,7 @@
 namespace shutter::depth_of_field {
 
 // Each is defined in filters/, in the file of its name.
+extern const Filter kHybrid;
 extern const Filter kJimenez2014;
 extern const Filter kNearFar;
 
@@ -86,7 +87,7 @@ graph::ImageHandle addLensPass(
 } // namespace
 
 const Filter& getFilter(std::string_view name) {
-    for (const Filter* filter : {&kJimenez2014, &kNearFar})
+    for (const Filter* filter : {&kHybrid, &kJimenez2014, &kNearFar})
         if (filter->name == name)
             return *filter;
     SHUTTER_CHECK(false, "there is no filter {}", name);
@@ -99,25 +100,36 @@ uint32_t computeTileSize(uint32_t height) {
     return std::max(divideUp(height, kTilesPerHeight), shader::kLensGroup);
 }
 
-DepthOfField::DepthOfField(gpu::Device& device)
-    : mDevice(device), mTiles(device, describePass("lens tiles", depth_of_field_tiles_comp, 1)),
+DepthOfField::DepthOfField(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
+    : mDevice(device), mSceneLayout(sceneLayout),
+      mTiles(device, describePass("lens tiles", depth_of_field_tiles_comp, 1)),
       mReach(device, describePass("lens reach", depth_of_field_reach_comp, 1)) {}
 
 void DepthOfField::configure(const DepthOfFieldSettings& settings) {
     SHUTTER_CHECK(settings.taps > 0 && settings.taps <= kMaxTaps, "{} taps", settings.taps);
+    SHUTTER_CHECK(settings.rays > 0 && settings.rays <= kMaxRays, "{} rays", settings.rays);
     mSettings = settings;
 }
 
-core::Decision DepthOfField::decide(const render::ViewFacts&) const {
+core::Decision DepthOfField::decide(const render::ViewFacts& facts) const {
     if (!mSettings.filter)
         return {false, "no filter is chosen"};
+    if (mSettings.filter->tracesRays && !facts.deviceHasRayQuery)
+        return {false, "it needs ray queries, which the device lacks"};
     return {true, "the picture is filtered by the camera's lens"};
+}
+
+core::Decision DepthOfField::decideRays(const render::ViewFacts&) const {
+    if (!mSettings.filter || !mSettings.filter->tracesRays)
+        return {};
+    return {true, "rays see past what is near"};
 }
 
 void DepthOfField::extract(render::ExtractContext& context) {
     const double s = context.facts.rasterTime;
     const scene::CameraLens lens = context.motion.cameraLens(s);
     mInverseFocus = 1.0 / lens.focusDistance;
+    mTurn = context.view.lensTurn.value_or(0);
     mConfusionPx = 0.0;
     // It is 0 for an orthographic camera, which has no lens.
     const double pixelWidthAtOne = context.frame.constants.pixelFootprint.x;
@@ -127,6 +139,7 @@ void DepthOfField::extract(render::ExtractContext& context) {
 }
 
 void DepthOfField::declare(render::PostContext& context) {
+    mHasTraced.at(context.slot) = false;
     if (!(mConfusionPx > 0.0))
         return;
     shader::LensFilterParams params{};
@@ -178,23 +191,59 @@ graph::ImageHandle DepthOfField::addFilter(
     const glm::uvec2 groups{
         divideUp(params.sizePx.x, shader::kLensGroup),
         divideUp(params.sizePx.y, shader::kLensGroup)};
-    return addLensPass(
+    const auto filter = [&](const auto& sampled) {
+        return addLensPass(
+            context.graph,
+            mDevice,
+            findFilterPipeline(),
+            "lens filter",
+            sampled,
+            target,
+            groups,
+            params
+        );
+    };
+    const graph::ImageHandle motionDepth = context.gbuffer.motionDepth;
+    if (!mSettings.filter->tracesRays)
+        return filter(std::array{context.color, motionDepth, reach});
+    const LensRaysOutputs seen = addRays(context, reach, params);
+    return filter(std::array{context.color, motionDepth, reach, seen.near, seen.behind});
+}
+
+LensRaysOutputs DepthOfField::addRays(
+    const render::PostContext& context,
+    graph::ImageHandle reach,
+    const shader::LensFilterParams& params
+) {
+    SHUTTER_CHECK(context.rays, "no scene to trace rays in");
+    if (!mRays)
+        mRays.emplace(mDevice, mSceneLayout);
+    shader::LensFilterParams own = params;
+    own.frame = gpu::splitAddress(context.rays->frameConstants);
+    own.rayCount = mSettings.rays;
+    own.firstRay = mTurn * mSettings.rays;
+    mHasTraced.at(context.slot) = true;
+    return mRays->add(
         context.graph,
-        mDevice,
-        findFilterPipeline(),
-        "lens filter",
-        std::array{context.color, context.gbuffer.motionDepth, reach},
-        target,
-        groups,
-        params
+        {context.color, context.gbuffer.motionDepth, reach, *context.rays, context.slot},
+        own
     );
+}
+
+void DepthOfField::finish(render::FinishedFrame& frame) {
+    if (frame.ran && mHasTraced.at(frame.slot))
+        mRays->count(frame.slot, frame.counters);
 }
 
 const gpu::LazyPipeline& DepthOfField::findFilterPipeline() {
     const Filter& filter = *mSettings.filter;
     return mFilters
         .try_emplace(
-            &filter, mDevice, describePass(std::string("lens ") + filter.name, filter.spirv, 3)
+            &filter,
+            mDevice,
+            describePass(
+                std::string("lens ") + filter.name, filter.spirv, filter.tracesRays ? 5 : 3
+            )
         )
         .first->second;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Depth of field from one picture and its depth, by filters of other engines, for comparison with
-// the lens of `resolved`. README.md describes how they follow their publications.
+// Depth of field from one picture and its depth, by filters of other engines, one with rays past
+// what is near, for comparison with the lens of `resolved`. README.md describes how they follow
+// their publications.
 #pragma once
 
 #include "engine/core/result.h"
@@ -8,19 +9,25 @@
 #include "engine/graph/graph.h"
 #include "engine/render/post_effect.h"
 #include "modules/depth_of_field/filters.h"
+#include "modules/depth_of_field/lens_rays.h"
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 
 namespace shutter::depth_of_field {
 
 inline constexpr uint32_t kDefaultTaps = 64;
 inline constexpr uint32_t kMaxTaps = 1024;
+inline constexpr uint32_t kDefaultRays = 4;
+inline constexpr uint32_t kMaxRays = 64;
 
 struct DepthOfFieldSettings {
     const Filter* filter = nullptr; ///< null: there is no depth of field
     uint32_t taps = kDefaultTaps;   ///< of each gather, [1, kMaxTaps]
+    uint32_t rays = kDefaultRays;   ///< of each masked pixel, [1, kMaxRays]: Filter::tracesRays
 };
 
 /// Side of a tile in pixels, for a picture of that height: circles of confusion reach as far in
@@ -32,7 +39,8 @@ struct DepthOfFieldSettings {
 /// squeeze, and at most shader::kReachTiles tiles in radius. Writes RGBA16F.
 class DepthOfField : public render::PostEffect {
   public:
-    explicit DepthOfField(gpu::Device& device);
+    /// \param sceneLayout of the scene's textures, for filters that trace rays
+    explicit DepthOfField(gpu::Device& device, VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE);
 
     /// For the frames to come. \param settings valid
     void configure(const DepthOfFieldSettings& settings);
@@ -42,8 +50,10 @@ class DepthOfField : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
     [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision decideRays(const render::ViewFacts& facts) const override;
     void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;
+    void finish(render::FinishedFrame& frame) override;
 
   private:
     [[nodiscard]] graph::ImageHandle addTiles(
@@ -57,16 +67,25 @@ class DepthOfField : public render::PostEffect {
         graph::ImageHandle reach,
         const shader::LensFilterParams& params
     );
+    [[nodiscard]] LensRaysOutputs addRays(
+        const render::PostContext& context,
+        graph::ImageHandle reach,
+        const shader::LensFilterParams& params
+    );
     /// Made when a frame first needs it.
     [[nodiscard]] const gpu::LazyPipeline& findFilterPipeline();
 
     gpu::Device& mDevice;
+    VkDescriptorSetLayout mSceneLayout;
     DepthOfFieldSettings mSettings;
     double mConfusionPx = 0.0;  ///< of the frame that is extracted: LensFilterParams's
     double mInverseFocus = 0.0; ///< likewise, 1/m
+    uint32_t mTurn = 0;         ///< likewise: ViewRequest::lensTurn
     gpu::LazyPipeline mTiles;
     gpu::LazyPipeline mReach;
     std::map<const Filter*, gpu::LazyPipeline> mFilters;
+    std::optional<LensRays> mRays;                          ///< made when a frame first needs them
+    std::array<bool, gpu::kMaxFramesInFlight> mHasTraced{}; ///< the slot's last frame
 };
 
 } // namespace shutter::depth_of_field

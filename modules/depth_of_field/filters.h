@@ -12,7 +12,8 @@ namespace shutter::depth_of_field {
 struct Filter {
     const char* name;        ///< of its file
     const char* publication; ///< authors and year
-    /// Code of a compute shader that reads the picture, motion and depth, and reach (tiles.comp),
+    bool tracesRays = false; ///< it reads what LensRays writes, too
+    /// Code of a compute shader that reads the picture, motion and depth, and reach (reach.comp),
     /// and writes the filtered picture.
     std::span<const uint32_t> spirv;
 };

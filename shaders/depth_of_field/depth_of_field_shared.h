@@ -19,12 +19,23 @@ struct LensFilterParams {
     uint tapCount;
     float confusionPx;  // radius of the circle of confusion is this times |inverseFocus - 1/depth|
     float inverseFocus; // 1 / m
+    // Of filters that trace rays:
+    uvec2 frame;   // address of FrameConstants
+    uint rayCount; // of each masked pixel
+    uint firstRay; // of the pixel's sequence of places in the lens
+};
+
+/// What rays were traced for in a frame.
+struct LensRayCounts {
+    uint pixels;
+    uint rays;
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::LensFilterParams) == 32);
+static_assert(sizeof(shutter::shader::LensFilterParams) == 48);
+static_assert(sizeof(shutter::shader::LensRayCounts) == 8);
 #endif
 
 #endif

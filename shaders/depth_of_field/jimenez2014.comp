@@ -9,6 +9,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "depth_of_field/taps.glsl"
 
+layout(binding = 3, rgba16f) uniform writeonly image2D uFiltered;
+
 const float kDiagonalPx = 0.70710678f; // half a pixel's: a sharp point covers its pixel
 const float kClassPx = 2.0f; // difference of radii over which the classes exchange
 

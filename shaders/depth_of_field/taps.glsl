@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What filters of a lens read and write.
+// What filters of a lens read.
 #include "common/sampling.glsl"
 #include "depth_of_field/confusion.glsl"
 
@@ -8,7 +8,6 @@ layout(push_constant, scalar) uniform Push { LensFilterParams params; };
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform sampler2D uReach; // reach.comp
-layout(binding = 3, rgba16f) uniform writeonly image2D uFiltered;
 
 struct Tap {
     vec3 color;
