@@ -39,6 +39,11 @@ struct LensRow {
 constexpr LensRow kLensRows[] = {
     {"jimenez2014_lens", "depth of field: scatter as you gather", "jimenez2014", "", false},
     {"near_far_lens", "depth of field: a near field over a far field", "near_far", "", false},
+    {"hybrid_lens",
+     "depth of field: near_far_lens over what rays see past near edges",
+     "hybrid",
+     "",
+     false},
     {"lens_then_blur", "near_far_lens, then resolved's motion blur", "near_far", "resolved", false},
     {"blur_then_lens", "resolved's motion blur, then near_far_lens", "near_far", "resolved", true},
 };
@@ -58,6 +63,11 @@ game::MethodInfo describeLensContender(const LensRow& row) {
         .filtersBlurred = row.filtersBlurred,
         .sampleUnit = game::SampleUnit::Taps,
         .defaultSamples = depth_of_field::kDefaultTaps};
+    if (filter.tracesRays) {
+        contender.rays = game::RayNeed::Query;
+        contender.sampleUnit = game::SampleUnit::Rays;
+        contender.defaultSamples = depth_of_field::kDefaultRays;
+    }
     if (row.blur.empty())
         return contender;
     contender.blur = &motion_blur::getMethod(row.blur);
@@ -96,7 +106,9 @@ std::vector<uint32_t> listSampleCounts(const game::MethodInfo& method, uint32_t 
         counts = listPowersOfTwo(2, 64); // the default of one is the truth itself
         break;
     case game::SampleUnit::Rays:
-        counts = listPowersOfTwo(1, maxRays);
+        counts = listPowersOfTwo(
+            1, method.lensFilter ? std::min(maxRays, depth_of_field::kMaxRays) : maxRays
+        );
         break;
     }
     if (method.defaultSamples < counts.back())
@@ -187,7 +199,9 @@ game::MethodOptions makeMethodOptions(const SamplePoint& point) {
     game::MethodOptions options = game::makeMethod(*point.method, settings);
     options.samples = point.samples;
     if (point.method->lensFilter)
-        options.lensTaps = point.method->blur ? depth_of_field::kDefaultTaps : point.samples;
+        options.lensTaps = point.method->sampleUnit == game::SampleUnit::Taps
+                               ? point.samples
+                               : depth_of_field::kDefaultTaps;
     return options;
 }
 

@@ -84,7 +84,7 @@ class Measured(unittest.TestCase):
     def test_what_a_lens_sees(self):
         if not (ROOMS / "pink-room").exists():
             self.skipTest("the rooms are outside of the repository")
-        methods = ["sharp", "near_far_lens", "lens_then_blur", "blur_then_lens"]
+        methods = ["sharp", "near_far_lens", "hybrid_lens", "lens_then_blur", "blur_then_lens"]
         results = self.measure("--suite", "lens", "--case", "joint", "--rooms", str(ROOMS), "--aa", "box",
                                "--methods", ",".join(["gather", *methods]), size="64x36", truth_samples=32)
         self.validate(results)
@@ -96,6 +96,7 @@ class Measured(unittest.TestCase):
             for both in ("lens_then_blur", "blur_then_lens"):
                 self.assertGreater(reached[both], reached["near_far_lens"] + 3)
             self.assertGreater(reached["near_far_lens"], reached["sharp"])
+            self.assertGreater(reached["hybrid_lens"], reached["sharp"])
             self.assertEqual({s["method"] for s in case["skipped"]}, {"gather"})
             self.assertIn("pinhole", case["skipped"][0]["reason"])
 

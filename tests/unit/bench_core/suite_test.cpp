@@ -249,6 +249,10 @@ TEST(Contenders, AFilterOfTheLensTakesTapsAndBesideAMotionBlurItsDefault) {
     const game::MethodInfo* alone = findContender("near_far_lens").value();
     EXPECT_TRUE(alone->hasLens);
     EXPECT_EQ(makeMethodOptions({alone, 16, false}).lensTaps, 16u);
+    const game::MethodInfo* traced = findContender("hybrid_lens").value();
+    EXPECT_EQ(traced->rays, game::RayNeed::Query);
+    EXPECT_EQ(makeMethodOptions({traced, 2, false}).samples, 2u);
+    EXPECT_EQ(makeMethodOptions({traced, 2, false}).lensTaps, depth_of_field::kDefaultTaps);
     for (const char* name : {"lens_then_blur", "blur_then_lens"}) {
         const game::MethodInfo* both = findContender(name).value();
         const game::MethodOptions options = makeMethodOptions({both, 8, false});
