@@ -57,6 +57,15 @@ SHUTTER_INLINE float apertureArea(Aperture aperture) {
     return float(aperture.blades) * (straight + aperture.roundness * half_) * aperture.squeeze;
 }
 
+/// Length of the opening's border by twice its area: of a disc 1 by its radius, of a polygon 1 by the
+/// distance of its sides from the middle; estimated where it is rounded or squeezed.
+SHUTTER_INLINE float apertureCurvature(Aperture aperture) {
+    float sides = 1.0f;
+    if (aperture.blades > 0u)
+        sides = mix(1.0f / cos(kApertureHalfTurn / float(aperture.blades)), 1.0f, aperture.roundness);
+    return sides * sqrt(0.5f + 0.5f / (aperture.squeeze * aperture.squeeze));
+}
+
 /// Where a place of the unit square, [0, 1)^2, lies in the opening: right and up. Equal areas of the
 /// square become equal areas of the opening.
 SHUTTER_INLINE vec2 aperturePoint(Aperture aperture, vec2 place) {

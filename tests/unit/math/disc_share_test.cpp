@@ -42,6 +42,7 @@ TEST(DiscShare, ADiscHasTheLightOfItsPoint) {
     for (const Aperture& aperture :
          {Aperture{0, 0.0f, 0.0f, 1.0f},
           Aperture{0, 0.0f, 0.0f, 0.5f},
+          Aperture{0, 0.0f, 0.0f, 2.0f},
           Aperture{3, 0.4f, 0.0f, 1.0f},
           Aperture{6, 1.0f, 0.3f, 1.5f}})
         for (const float narrowest : {-3.0f, 8.0f, 40.0f}) // 3 pixels is the smallest
@@ -54,7 +55,7 @@ TEST(DiscShare, ADiscHasTheLightOfItsPoint) {
                         light += double(shader::shareOfDisc(
                             aperture, vec2(float(x) + 0.3f, float(y) - 0.4f), confusion, area, width
                         ));
-                EXPECT_NEAR(light, 1.0, aperture.blades == 3 && narrowest < 8.0f ? 0.04 : 0.01)
+                EXPECT_NEAR(light, 1.0, aperture.blades == 3 && narrowest < 8.0f ? 0.01 : 0.005)
                     << aperture.blades << " " << aperture.squeeze << " " << confusion << " "
                     << width;
             }
