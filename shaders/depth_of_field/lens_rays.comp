@@ -36,7 +36,7 @@ float findLimit(vec2 centre, float reach, float turn) {
 
 /// Rays through the point in focus that a pixel shows.
 struct LensRays {
-    vec3 step_; // from the middle of the lens, forward by 1, camera-relative space
+    vec3 perDepth; // from the middle of the lens, for each metre of depth
     vec3 right; // the lens's radius long
     vec3 up;
     uint seed;
@@ -44,7 +44,7 @@ struct LensRays {
 
 struct LensRay {
     vec3 place; // in the lens, camera-relative space
-    vec3 step_; // forward by 1
+    vec3 perDepth; // way for each metre of depth
 };
 
 LensRays makeRays(FrameRef frame, ivec2 pixel, ViewRay view) {
@@ -61,28 +61,28 @@ LensRay makeRay(LensRays rays, uint index) {
     Aperture disc = Aperture(0u, 0.0f, 1.0f, 1.0f);
     vec2 place = aperturePoint(disc, lensPlace(params.firstRay + index, rays.seed));
     vec3 shift = place.x * rays.right + place.y * rays.up;
-    return LensRay(shift, rays.step_ - params.inverseFocus * shift);
+    return LensRay(shift, rays.perDepth - params.inverseFocus * shift);
 }
 
 /// \param from depth where it starts, metres \param depth of what it meets
 RayHit traceFrom(FrameRef frame, LensRay ray, float from, out float depth) {
-    vec3 direction = normalize(ray.step_);
+    vec3 direction = normalize(ray.perDepth);
     RayHit hit = traceRay(
-        uScene, frame, ray.place + from * ray.step_, direction, 0.0f, 1.0e30f, kSolidMask,
+        uScene, frame, ray.place + from * ray.perDepth, direction, 0.0f, 1.0e30f, kSolidMask,
         LeftSurface(kNoEntity, 0.0f)
     );
-    depth = hit.found ? from + hit.t / length(ray.step_) : kSkyDepth;
+    depth = hit.found ? from + hit.t / length(ray.perDepth) : kSkyDepth;
     return hit;
 }
 
 /// Colour of what the ray meets, and the radius of its circle of confusion.
 vec4 shade(FrameRef frame, LensRay ray, float from, RayHit hit, float depth) {
-    vec3 direction = normalize(ray.step_);
+    vec3 direction = normalize(ray.perDepth);
     vec3 color = hit.found ? shadeRasterHit(frame, hit.id, direction).color
                            : backgroundRadiance(frame, direction);
     if (kBlended != 0u)
         color = seenThroughBlended(
-            uScene, frame, ray.place + from * ray.step_, direction, hit.found ? hit.t : 1.0e30f,
+            uScene, frame, ray.place + from * ray.perDepth, direction, hit.found ? hit.t : 1.0e30f,
             kNoEntity, color
         );
     return vec4(storableColor(color), abs(confusionRadius(params, depth)));
