@@ -365,6 +365,31 @@ TEST_F(LensLight, AMovingBrightPointLeavesTheLightAndThePlaceOfManyPictures) {
     }
 }
 
+/// Else half-covered pixels at its border would give it the light of whole ones.
+TEST_F(LensLight, ABrightPointThatCoversPixelsInPartHasTheLightOfThatPart) {
+    for (const double shiftPx : {0.0, 0.5}) {
+        SceneBuilder scene = makeStage(kWideOpen);
+        const double depth = 30.0;
+        addLamp(scene, 2.0, {shiftPx, 0.0}, depth, 40.0f);
+        // A moving camera's raster has several samples; the background does not move with the lamp.
+        scene.moveCamera({.velocity = {2.0 / 0.2 * depth / kPxPerUnit, 0, 0}});
+        Shot shot = makeLensShot("resolved");
+        shot.exposureSeconds = 0.2;
+        shot.phase = scene::ShutterPhase::End; // at which the raster is
+        shot.settings.history = false;
+        const image::Image seen = test::Frames(device(), scene)
+                                      .draw(
+                                          shot,
+                                          [](game::PictureRequest& request) {
+                                              request.antiAliasing = game::AntiAliasing::Taa;
+                                          }
+                                      )
+                                      .color;
+        RecordProperty(fmt::format("{}", shiftPx), fmt::format("{:.4f}", sumLight(seen) / 160.0));
+        EXPECT_NEAR(sumLight(seen) / 160.0, 1.0, 0.01) << shiftPx;
+    }
+}
+
 TEST_F(LensLight, ABrightPointBehindANarrowOpeningStaysSamples) {
     CameraLens lens = kWideOpen;
     const double depth = 30.0;
