@@ -104,6 +104,21 @@ TEST_F(DemandLaw, HybridWithoutRaysIsSkippedInFrontOfTheSkyToo) {
     EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
 }
 
+TEST_F(DemandLaw, NormalsAreDrawnOnlyForWhatReadsThem) {
+    const SceneBuilder scene = makeCrossing();
+    const auto draws = [&](const char* method, const char* intermediate) {
+        const render::FrameResult frame =
+            Frames(device(), scene).draw(frameShot(method), [&](game::PictureRequest& request) {
+                request.frame.intermediates = {intermediate};
+            });
+        return frame.dump.find("normal") != std::string::npos;
+    };
+    EXPECT_TRUE(draws("hybrid", "depth"));
+    EXPECT_TRUE(draws("sharp", "normal"));
+    EXPECT_FALSE(draws("sharp", "depth"));
+    EXPECT_FALSE(draws("resolved", "depth"));
+}
+
 TEST_F(DemandLaw, UnusedResourcesAreFreedAfterAWhile) {
     const SceneBuilder scene = makeCrossing();
     Frames frames(device(), scene);
