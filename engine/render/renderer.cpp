@@ -73,13 +73,6 @@ decideParticles(const extract::ParticleTables& particles, const extract::ViewReq
 /// Name of the intermediate GBuffer::normal.
 constexpr const char* kNormals = "normal";
 
-/// Names of the intermediates that the frame reads back or shows.
-std::set<std::string> listWanted(const FrameRequest& request) {
-    std::set<std::string> wanted = request.intermediates;
-    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
-    return wanted;
-}
-
 graph::ImageHandle
 declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t height) {
     struct Data {
@@ -393,6 +386,8 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     scene.shadowMaps = rays.shadowBuffer;
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     const std::array reads{scene.shapes.buffer, rays.shadowBuffer};
+    const bool readsNormals = running.readsNormals || request.intermediates.contains(kNormals) ||
+                              request.shownIntermediates.contains(kNormals);
     scene.gbuffer = mGBufferPass.declare(
         graph,
         "G-buffer",
@@ -402,7 +397,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
          rays.frameConstants,
          running.samplesEdges,
          running.readsEdges,
-         running.readsNormals || listWanted(request).contains(kNormals)}
+         readsNormals}
     );
     if (!running.particles.run && !particles.empty())
         scene.gbuffer.color = declareParticles(
@@ -471,7 +466,9 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         );
     }
     const DeclaredScene scene = declareScene(parts);
-    Intermediates intermediates(listWanted(request));
+    std::set<std::string> wanted = request.intermediates;
+    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
+    Intermediates intermediates(std::move(wanted));
     publishGBuffer(scene.gbuffer, intermediates);
     publishParticles(parts, scene, intermediates);
     PostContext context{

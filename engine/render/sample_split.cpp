@@ -89,7 +89,7 @@ bindBoth(const gpu::Device& device, const graph::PassResources& resources, const
     gpu::BindingList bindings;
     SampleSplit::Samples from = data.samples;
     GBuffer to = data.split;
-    if (!from.normal.isValid()) { // not used then
+    if (!from.normal.isValid()) { // any images of the bindings' kinds: they are not used
         from.normal = from.surface;
         to.normal = to.color;
     }

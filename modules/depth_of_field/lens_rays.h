@@ -26,7 +26,7 @@ struct LensRaysInputs {
 struct LensRaysOutputs {
     graph::ImageHandle near;   ///< RGBA16F: colour, and the share of the pixel that it covers
     graph::ImageHandle behind; ///< RGBA16F: colour, and the radius of its circle of confusion in
-                               ///< pixels; -1 where no ray was traced
+                               ///< pixels; -1: no ray saw it, and the colour is the filter's
 };
 
 /// Needs ray queries.

@@ -57,8 +57,8 @@ SHUTTER_INLINE float apertureArea(Aperture aperture) {
     return float(aperture.blades) * (straight + aperture.roundness * half_) * aperture.squeeze;
 }
 
-/// Length of the opening's border by twice its area: of a disc 1 by its radius, of a polygon 1 by the
-/// distance of its sides from the middle; estimated where it is rounded or squeezed.
+/// Length of the opening's border divided by twice its area: for a disc 1 / radius, for a polygon 1 /
+/// distance of its sides from the middle; an estimate if it is rounded or squeezed.
 SHUTTER_INLINE float apertureCurvature(Aperture aperture) {
     float sides = 1.0f;
     if (aperture.blades > 0u)

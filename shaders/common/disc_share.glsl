@@ -25,8 +25,7 @@ SHUTTER_INLINE float insideDisc(Aperture aperture, vec2 from, float confusion) {
 /// \param area apertureArea()
 /// \param width over which the border rises at each place
 SHUTTER_INLINE float shareOfDisc(Aperture aperture, vec2 from, float confusion, float area, float width) {
-    // A border that rises over a width goes round a larger area than one that rises at once, but if it
-    // lies farther in.
+    // A border that rises over a width encloses more light than a sharp one, so it is moved inwards.
     float inset = apertureCurvature(aperture) * width * width / (24.0f * abs(confusion));
     float inside = insideDisc(aperture, from, confusion) - inset;
     float coverage = inside > 0.0f ? 1.0f : 0.0f;

@@ -19,7 +19,7 @@ struct LensFilterParams {
     uint tapCount;
     float confusionPx;  // radius of the circle of confusion is this times |inverseFocus - 1/depth|
     float inverseFocus; // 1 / m
-    // Of filters that trace rays:
+    // Read only by filters that trace rays:
     uvec2 frame;   // address of FrameConstants
     uint rayCount; // of each masked pixel
     uint firstRay; // of the pixel's sequence of places in the lens

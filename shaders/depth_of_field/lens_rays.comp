@@ -18,7 +18,7 @@ layout(binding = 4, rgba16f) uniform writeonly image2D uBehind; // colour; radiu
 layout(binding = 5) uniform accelerationStructureEXT uScene;
 layout(binding = 6, scalar) buffer Counts { LensRayCounts uCounts; };
 
-/// A surface whose circle of confusion is below this multiple of the limit's may run through it.
+/// A surface whose circle of confusion is below this multiple of the limit's may extend past it.
 const float kClear = 1.5f;
 
 /// The confusion that separates what is in front from all that lies behind: half of that of the
@@ -88,10 +88,10 @@ vec4 shade(FrameRef frame, LensRay ray, float from, RayHit hit, float depth) {
     return vec4(storableColor(color), abs(confusionRadius(params, depth)));
 }
 
-/// The mean over rays that meet nothing before the limit, which are those by which the lens sees
-/// the background; where all do, over rays that start at the limit. Negative radius: they meet a
-/// surface close before the limit, which may run through it, so that they would start beneath it.
-/// Counts its rays.
+/// The mean over the rays that meet nothing before the limit: through their places the lens sees the
+/// background. If all are blocked, as many more start at the limit, unless the surface that blocks them
+/// may extend past it, so that they would start beneath it. Counts the rays.
+/// \return colour, and the mean radius of its circle of confusion; negative: no ray saw any
 vec4 seeBehind(ivec2 pixel, float limit) {
     FrameRef frame = FrameRef(params.frame);
     ViewRay view = makeViewRay(frame, vec2(pixel) + 0.5f);
