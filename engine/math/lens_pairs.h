@@ -15,6 +15,11 @@ struct LensPair {
     dvec2 place{0.0, 0.0}; ///< of the unit square, for shader::aperturePoint()
 };
 
+/// Point `index` of `count` (more than `index`) that are spread evenly over the unit square, and
+/// over a disc by shader::aperturePoint(): Sobol's first two dimensions with a digital shift, as
+/// fractions of 2^32 at the corner of a stratum of 1 / count, if that is a power of two.
+[[nodiscard]] uvec2 lensPoint(uint32_t index, uint32_t count);
+
 /// shader::kLensSets sets of `samples` pairs: sample i of set k is at i * kLensSets + k, and has
 /// the same time in all of them. Each set is spread evenly over time and lens together; the places
 /// of all are spread evenly over the lens, and so are those from k = 4 n to 4 n + 3.

@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
+#include "engine/math/lens_pairs.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/shutter.h"
 #include "shaders/accumulate/accumulate_shared.h"
@@ -63,10 +64,7 @@ extract::ViewRequest makeInstant(
     instant.instant = scene::invertLight(view.exposure, (index + 0.5) / count);
     if (view.usesLens)
         instant.lensPlace = placeOf(
-            math::uvec2(shader::sobolPoint(index)),
-            count,
-            seed,
-            {0.8566748838545029, 0.7338918566271260}
+            math::lensPoint(index, count), count, seed, {0.8566748838545029, 0.7338918566271260}
         );
     if (pixel == PixelModel::Centre)
         return instant;

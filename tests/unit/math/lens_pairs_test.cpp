@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/lens_pairs.h"
+#include "shaders/common/aperture.glsl"
 #include "shaders/common/instant_motion_shared.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,18 @@ TEST(LensPairs, AllSetsTogetherAreSpreadAsEvenlyAsOneOfSoManySamples) {
     }
     EXPECT_EQ(parts.size(), pairs.size());
     EXPECT_EQ(times.size(), kSamples);
+}
+
+TEST(LensPairs, PlacesOfAllSetsHaveTheWidthOfTheDisc) {
+    for (const uint32_t samples : {4u, 15u, 16u, 32u}) {
+        double square = 0.0;
+        const auto pairs = spreadLensPairs(samples);
+        for (const LensPair& pair : pairs) {
+            const vec2 place = shader::aperturePoint({0, 0.0f, 1.0f, 1.0f}, vec2(pair.place));
+            square += dot(place, place) / double(pairs.size());
+        }
+        EXPECT_NEAR(square, 0.5, 0.002) << samples;
+    }
 }
 
 TEST(LensPairs, SetsOfAnyNumberOfSamplesLieAboutTheMiddleOfTheLens) {
