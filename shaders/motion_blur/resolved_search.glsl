@@ -354,9 +354,11 @@ PixelSearch beginSearch(ivec2 pixel) {
 }
 
 /// Where in the pixel a sample of it is that has an edge near: spread evenly, also among those close in
-/// time (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+/// time (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"). Places of samples as
+/// far from the first as from the last lie opposite each other, so that the mean is the centre.
 vec2 placeInPixel(PixelSearch pixel, uint index) {
-    return pixel.centre + fract(0.5f + float(index) * vec2(0.7548776662f, 0.5698402910f)) - 0.5f;
+    float fromMiddle = float(index) - 0.5f * float(params.sampleCount - 1u);
+    return pixel.centre + fract(0.5f + fromMiddle * vec2(0.7548776662f, 0.5698402910f)) - 0.5f;
 }
 
 /// State before the first instant.

@@ -318,6 +318,29 @@ TEST_F(TaaEdge, EdgesInTexturesOfColorAndEmissionAreSmooth) {
         }
 }
 
+TEST_F(TaaEdge, EdgesStayInTheirPlaceInThePixelOnAverage) {
+    const double pixelMetres = 2.0 * std::tan(0.45) * kDistance / kHeight;
+    slideCamera(2.0); // 0.8 pixels in the exposure, at whose end the edge is in the middle
+    addWall(math::vec3(0.05f), 9.0);
+    const ecs::Entity cover = mScene.add(
+        test::makeQuad(40.0, 40.0, mScene.addColor(math::vec3(0.9f))), {.position = {0, 0, -5}}
+    );
+    mMethod = "resolved";
+    constexpr int kPlaces = 16;
+    double sum = 0.0;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double place = (i + 0.5) / kPlaces; // of the edge in the pixel
+        mScene.world.registry.get<scene::LocalTransform>(cover).transform.translation.x =
+            mSpeed - 20.0 + place * pixelMetres;
+        const image::Image picture = draw(AntiAliasing::Taa);
+        double row = 0.0;
+        for (uint32_t x = 16; x < kWidth - 16; ++x)
+            row += (picture.at(x, kHeight / 2, 0) - 0.05) / 0.85;
+        sum += row - (kWidth / 2.0 - 16.0 + place + 0.4);
+    }
+    EXPECT_NEAR(sum / kPlaces, 0.0, 0.04) << "pixels";
+}
+
 TEST_F(TaaEdge, AWireThinnerThanAPixelKeepsItsLight) {
     slideCamera(1.5);
     addWall(math::vec3(0.05f), 9.0);
