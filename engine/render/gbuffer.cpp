@@ -3,6 +3,8 @@
 
 #include "spirv/render/gbuffer.frag.h"
 #include "spirv/render/gbuffer.vert.h"
+#include "spirv/render/gbuffer_masked_samples.frag.h"
+#include "spirv/render/gbuffer_masked_samples_normals.frag.h"
 #include "spirv/render/gbuffer_normals.frag.h"
 #include "spirv/render/gbuffer_samples.frag.h"
 #include "spirv/render/gbuffer_samples_normals.frag.h"
@@ -56,16 +58,19 @@ gpu::GraphicsPipelineDesc describeGeometry(
     bool moves,
     const GBufferPass::Targets& targets
 ) {
+    FragmentShaders shaders{
+        render_gbuffer_frag,
+        render_gbuffer_normals_frag,
+        render_gbuffer_samples_frag,
+        render_gbuffer_samples_normals_frag};
+    if (variant == Variant::Masked) {
+        shaders.samples = render_gbuffer_masked_samples_frag;
+        shaders.samplesWithNormals = render_gbuffer_masked_samples_normals_frag;
+    }
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
-    desc.fragmentSpirv =
-        FragmentShaders{
-            render_gbuffer_frag,
-            render_gbuffer_normals_frag,
-            render_gbuffer_samples_frag,
-            render_gbuffer_samples_normals_frag}
-            .choose(targets);
+    desc.fragmentSpirv = shaders.choose(targets);
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {

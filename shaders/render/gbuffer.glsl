@@ -29,7 +29,13 @@ void main() {
     SurfacePoint point = pointOfFragment();
     vec3 viewDirection = viewDirectionTo(frame, inRelWorldPosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
+#ifdef SHUTTER_MASKS_SAMPLES
+    uint covered = surface.passing & uint(gl_SampleMaskIn[0]);
+    if (covered == 0u) discard;
+    gl_SampleMask[0] = int(covered);
+#else
     if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;
+#endif
 
     vec3 color = shadeSurface(
         frame, material, surface, inRelWorldPosition, viewDirection, lightsAtRaster(frame),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a fragment leaves in the G-buffer. With SHUTTER_SEVERAL_SAMPLES: what it leaves for
-// split_samples.comp, in fewer and narrower images, since each sample is written by itself. Normals
-// only with SHUTTER_WRITES_NORMALS.
+// split_samples.comp, in fewer and narrower images, since each sample is written by itself; with
+// SHUTTER_MASKS_SAMPLES, which goes with it, alpha is tested at each. Normals only with
+// SHUTTER_WRITES_NORMALS.
 #ifndef SHUTTER_GBUFFER_TARGETS_GLSL
 #define SHUTTER_GBUFFER_TARGETS_GLSL
 
@@ -27,7 +28,12 @@ void writeTargets(vec4 color, vec3 normal, vec2 motion, float depth, uint row) {
     outColor = color;
     uint word = row;
     if (row != kNoEntity) {
-        bool coversAll = gl_SampleMaskIn[0] == int((1u << kSampleCount) - 1u);
+#ifdef SHUTTER_MASKS_SAMPLES
+        int covered = gl_SampleMask[0];
+#else
+        int covered = gl_SampleMaskIn[0];
+#endif
+        bool coversAll = covered == int((1u << kSampleCount) - 1u);
         word |= mixBits(motion, depth) >> 25 << kSampleRowBits;
         word |= coversAll ? 0u : kSampleOfPart;
     }

@@ -318,6 +318,25 @@ TEST_F(TaaEdge, EdgesInTexturesOfColorAndEmissionAreSmooth) {
         }
 }
 
+TEST_F(TaaEdge, EdgesOfAlphaMasksAreSmooth) {
+    slideCamera(1.5);
+    addWall(math::vec3(0.05f), 9.0);
+    scene::Material leaves;
+    leaves.unlit = true;
+    leaves.alphaMode = scene::AlphaMode::Mask;
+    leaves.baseColor.texture = mScene.addWaveTexture(64, true);
+    mScene.world.assets.textures.back().nearest = true; // as sharp as their edges can be
+    mScene.add(
+        test::makeQuad(4.0, 4.0, mScene.addMaterial(leaves)),
+        {.position = {mSpeed, 0, -kDistance}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
+    );
+    for (const std::string_view method : {"sharp", "resolved"}) {
+        mMethod = method;
+        EXPECT_LT(measureError(AntiAliasing::Taa), 0.7 * measureError(AntiAliasing::None))
+            << method;
+    }
+}
+
 TEST_F(TaaEdge, EdgesStayInTheirPlaceInThePixelOnAverage) {
     const double pixelMetres = 2.0 * std::tan(0.45) * kDistance / kHeight;
     slideCamera(2.0); // 0.8 pixels in the exposure, at whose end the edge is in the middle
