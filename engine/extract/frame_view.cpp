@@ -63,6 +63,16 @@ double findHeightening(const scene::Camera& camera, const ViewRequest& view) {
 
 } // namespace
 
+ViewRequest withoutStaticSamples(const ViewRequest& view) {
+    ViewRequest centred = view;
+    if (view.jittered == Jittered::Static) {
+        centred.jittered = Jittered::All;
+        centred.jitterPx = dvec2(0.0);
+        centred.staticLodBias = 0.0f;
+    }
+    return centred;
+}
+
 dvec2 computeHalfExtents(const scene::Camera& camera, double yFov, const ViewRequest& view) {
     const double aspect = computeAspect(view);
     if (camera.kind == scene::CameraKind::Perspective) {
@@ -89,6 +99,21 @@ dmat4 makeProjection(const scene::Camera& camera, double yFov, const ViewRequest
         );
     const dvec2 half = computeHalfExtents(camera, yFov, view);
     return math::clipFromViewOrthographic(half.x, half.y, camera.near, camera.far);
+}
+
+math::ThinLens describeLens(
+    const scene::ExposureMotion& motion,
+    const scene::Camera& camera,
+    const ViewRequest& view,
+    double s
+) {
+    const scene::CameraLens& lens = motion.cameraLens(s);
+    const double yFov = motion.cameraYFov(s);
+    return {
+        math::measurePixelsPerUnit(makeProjection(camera, yFov, view), {view.width, view.height}),
+        scene::computeLensRadius(lens, yFov),
+        lens.focusDistance,
+        scene::describeAperture(lens)};
 }
 
 CameraPose placeCamera(

@@ -5,6 +5,7 @@
 #include "engine/extract/deformed_entity.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/math/bounds.h"
+#include "engine/math/lens_tables.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/exposure_motion.h"
@@ -22,6 +23,10 @@ namespace shutter::extract {
 [[nodiscard]] shader::LightRow
 makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
+/// The view with every entity sampled at the pixel's centre where only static ones would be
+/// jittered.
+[[nodiscard]] ViewRequest withoutStaticSamples(const ViewRequest& view);
+
 /// Half the extent of the picture, to the right and up: at distance 1 (perspective), or metres at
 /// any distance (orthographic), where it is below 0 if the camera mirrors.
 /// \param yFov of the camera's frame, radians (ExposureMotion::cameraYFov)
@@ -35,6 +40,14 @@ computePictureYFov(const scene::Camera& camera, double yFov, const ViewRequest& 
 /// Clip space from view space. \param yFov of the camera's frame
 [[nodiscard]] math::dmat4
 makeProjection(const scene::Camera& camera, double yFov, const ViewRequest& view);
+
+/// The lens of a perspective camera at one shutter time, and the picture that it draws.
+[[nodiscard]] math::ThinLens describeLens(
+    const scene::ExposureMotion& motion,
+    const scene::Camera& camera,
+    const ViewRequest& view,
+    double s
+);
 
 /// A camera at one shutter time.
 struct CameraPose {

@@ -7,7 +7,6 @@
 #include "engine/scene/deformation.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
-#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <array>
@@ -87,24 +86,13 @@ class Builder {
             mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
     }
 
-    [[nodiscard]] math::ThinLens describeLens(double s) const {
-        const scene::CameraLens& lens = mMotion.cameraLens(s);
-        const double yFov = mMotion.cameraYFov(s);
-        return {
-            math::measurePixelsPerUnit(
-                makeProjection(mCamera, yFov, mView), {mView.width, mView.height}
-            ),
-            scene::computeLensRadius(lens, yFov),
-            lens.focusDistance,
-            scene::describeAperture(lens)};
-    }
-
     void addLens(InstantTables& tables) const {
         std::vector<math::ThinLens> lenses;
         for (const double s : mTimes)
-            lenses.push_back(describeLens(s));
+            lenses.push_back(describeLens(mMotion, mCamera, mView, s));
         const uint32_t turn = mView.lensTurn.value_or(0);
-        math::addLens(lenses, describeLens(mView.exposure.rasterTime), turn, tables);
+        const double rasterTime = mView.exposure.rasterTime;
+        math::addLens(lenses, describeLens(mMotion, mCamera, mView, rasterTime), turn, tables);
     }
 
     RasterRecord makeSecondRecord(const InstantFrame& second) const {

@@ -31,6 +31,11 @@ dvec2 measurePixelsPerUnit(const dmat4& clipFromView, const uvec2& sizePx) {
     return 0.5 * dvec2(sizePx) * dvec2(glm::length(dvec2(rows[0])), glm::length(dvec2(rows[1])));
 }
 
+vec2 confusionOf(const ThinLens& lens) {
+    const double radius = lens.radius * lens.pixelsPerUnit.y;
+    return vec2(dvec2(radius / lens.focusDistance, radius));
+}
+
 void addLens(
     std::span<const ThinLens> lenses, const ThinLens& raster, uint32_t turn, InstantLayers& layers
 ) {
@@ -55,8 +60,7 @@ void addLens(
             describeReach(shifts.subspan(i * shader::kLensSets, shader::kLensSets), lenses[i])
         );
     layers.lensReaches.push_back(describeReach(shifts, lenses[lenses.size() / 2]));
-    const double radius = raster.radius * raster.pixelsPerUnit.y;
-    layers.confusion = vec2(dvec2(radius / raster.focusDistance, radius));
+    layers.confusion = confusionOf(raster);
     const shader::Aperture& shape = raster.aperture;
     // Radii count in pixels down the picture; a host's need not be square.
     const double aspect = raster.pixelsPerUnit.x / raster.pixelsPerUnit.y;

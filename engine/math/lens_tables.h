@@ -23,6 +23,9 @@ struct ThinLens {
 /// \param clipFromView perspective with a clip w of -z
 [[nodiscard]] dvec2 measurePixelsPerUnit(const dmat4& clipFromView, const uvec2& sizePx);
 
+/// Returns InstantMotions::confusion of a raster that the camera draws.
+[[nodiscard]] vec2 confusionOf(const ThinLens& lens);
+
 /// Gives each sample of the exposure its places of the lens (spreadLensPairs()): fills the lens's
 /// fields, repeats `times`, and marks no layer as static, since other places of the lens see
 /// elsewhere what a pinhole sees at rest.

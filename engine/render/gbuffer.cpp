@@ -298,7 +298,9 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
     if (!isSampled)
         return targets;
     sampled.color = targets.color;
-    return mSplit.declare(graph, sampled, source.keepsEdges, !frame.blended.empty());
+    return mSplit.declare(
+        graph, sampled, {source.keepsEdges, source.confusion, !frame.blended.empty()}
+    );
 }
 
 } // namespace shutter::render

@@ -54,6 +54,7 @@ class GBufferPass {
         bool samplesEdges = false;  ///< ViewRequest::samplesEdges
         bool keepsEdges = false;    ///< GBuffer::edgeSurface is read
         bool writesNormals = false; ///< GBuffer::normal is read
+        math::vec2 confusion{0.0f}; ///< InstantMotions::confusion; 0: a pinhole
     };
 
     /// Declares the pass; the first frame with shadows, and the first without, makes pipelines, and

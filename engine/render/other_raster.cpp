@@ -48,7 +48,8 @@ OtherRasterView OtherRaster::declare(
     const gpu_scene::GpuScene& scene,
     GBufferPass& pass,
     const ShadowPipelines* shadows,
-    bool keepsEdges
+    bool keepsEdges,
+    const math::vec2& confusion
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);
     mTables.updateEntities(*mFrame);
@@ -59,7 +60,16 @@ OtherRasterView OtherRaster::declare(
             mShadows->declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
     const std::array reads{shapes.buffer, shadowMaps};
     const GBuffer gbuffer = pass.declare(
-        graph, name, {*mFrame, scene, reads, tables.constants, mView.samplesEdges, keepsEdges}
+        graph,
+        name,
+        {*mFrame,
+         scene,
+         reads,
+         tables.constants,
+         mView.samplesEdges,
+         keepsEdges,
+         /*writesNormals=*/false,
+         confusion}
     );
     return {gbuffer, mFrame, shapes, &mView};
 }

@@ -47,13 +47,15 @@ class OtherRaster {
     /// \param name of the pass that draws it
     /// \param shadows null: lights cast none
     /// \param keepsEdges GBuffer::edgeSurface is read
+    /// \param confusion GBufferPass::Source::confusion
     [[nodiscard]] OtherRasterView declare(
         graph::Graph& graph,
         const char* name,
         const gpu_scene::GpuScene& scene,
         GBufferPass& pass,
         const ShadowPipelines* shadows,
-        bool keepsEdges
+        bool keepsEdges,
+        const math::vec2& confusion
     );
 
   private:

@@ -5,10 +5,12 @@
 #include "engine/core/words.h"
 #include "engine/extract/defocus.h"
 #include "engine/extract/demand.h"
+#include "engine/extract/frame_view.h"
 #include "engine/extract/instance_masks.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
+#include "engine/math/lens_tables.h"
 #include "engine/render/shadow_maps.h"
 
 #include <array>
@@ -201,24 +203,48 @@ core::Result<FrameResult> Renderer::renderFrame(
     return finishFrame();
 }
 
+core::Result<Renderer::OwnFrame>
+Renderer::extractOwn(const scene::World& world, const extract::ViewRequest& view, bool hasEffects) {
+    const auto extractAs = [&](bool isDefocused) -> core::Result<OwnFrame> {
+        OwnFrame own{isDefocused ? extract::withoutStaticSamples(view) : view};
+        auto extracted = mExtractor.update(world, mScene.layout(), own.view);
+        if (!extracted)
+            return extracted.error();
+        own.frame = extracted.value();
+        // Only effects need it, and none for a picture of one instant.
+        own.isDefocused = hasEffects && !view.instant &&
+                          extract::isDefocused(
+                              world, view, mExtractor.view().motion(), *own.frame, mScene.layout()
+                          );
+        return own;
+    };
+    // It is known after the extraction, from the bounds of what is drawn.
+    const bool guess = mWasDefocused;
+    auto own = extractAs(guess);
+    if (!own)
+        return own;
+    mWasDefocused = own.value().isDefocused;
+    if (mWasDefocused != guess && view.jittered == extract::Jittered::Static)
+        own = extractAs(mWasDefocused);
+    return own;
+}
+
 core::Status Renderer::submitFrame(
-    const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+    const scene::World& world, const FrameRequest& asked, std::span<PostEffect* const> effects
 ) {
     SHUTTER_CHECK(mPending.size() < mSlots.size(), "{} frames are unfinished", mPending.size());
     PendingFrame pending;
     pending.slot = mNextSlot;
     pending.startMilliseconds = nowMilliseconds();
     Slot& slot = *mSlots[mNextSlot];
-    auto extracted = mExtractor.update(world, mScene.layout(), request.view);
-    if (!extracted)
-        return extracted.error();
-    extract::ExtractedFrame& frame = *extracted.value();
+    auto own = extractOwn(world, asked.view, !effects.empty());
+    if (!own)
+        return own.error();
+    extract::ExtractedFrame& frame = *own.value().frame;
+    FrameRequest request = asked;
+    request.view = own.value().view;
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
-    // Only effects need it, and none for a picture of one instant.
-    if (!effects.empty() && !request.view.instant)
-        facts.isDefocused = extract::isDefocused(
-            world, request.view, mExtractor.view().motion(), frame, mScene.layout()
-        );
+    facts.isDefocused = own.value().isDefocused;
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;
@@ -233,6 +259,13 @@ core::Status Renderer::submitFrame(
         .slot = pending.slot,
         .colorJitterPx = request.view.jitterPx};
     RunningEffects running = askEffects(context, frame, effects, explainer);
+    if (running.samplesEdges && facts.isDefocused)
+        running.confusion = math::confusionOf(extract::describeLens(
+            context.motion,
+            world.registry.get<scene::Camera>(request.view.camera),
+            request.view,
+            facts.rasterTime
+        ));
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
@@ -397,7 +430,8 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
          rays.frameConstants,
          running.samplesEdges,
          running.readsEdges,
-         readsNormals}
+         readsNormals,
+         running.confusion}
     );
     if (!running.particles.run && !particles.empty())
         scene.gbuffer.color = declareParticles(
@@ -415,7 +449,13 @@ void Renderer::declareEffects(
     Explainer& explainer = parts.explainer;
     const auto declareOther = [&](OtherRaster& other, const char* name) {
         return other.declare(
-            graph, name, mScene, mGBufferPass, mShadowPipelines.get(), running.readsEdges
+            graph,
+            name,
+            mScene,
+            mGBufferPass,
+            mShadowPipelines.get(),
+            running.readsEdges,
+            running.confusion
         );
     };
     std::optional<OtherRasterView> second;

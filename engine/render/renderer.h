@@ -173,9 +173,18 @@ class Renderer {
         bool samplesEdges = false; ///< the frame is drawn with several samples per pixel
         bool readsEdges = false;   ///< PostEffect::readsEdges of one of them
         bool readsNormals = false; ///< PostEffect::readsNormals likewise
-        core::Decision particles;  ///< run: they are drawn with their motion over the exposure
-                                   ///< ......
-        size_t particlesAt = 0;    ///< ... after as many of `effects`
+        /// GBufferPass::Source::confusion.
+        math::vec2 confusion{0.0f};
+        core::Decision particles; ///< run: they are drawn with their motion over the exposure
+                                  ///< ......
+        size_t particlesAt = 0;   ///< ... after as many of `effects`
+    };
+
+    /// The extracted frame, and the view that it was drawn for.
+    struct OwnFrame {
+        extract::ViewRequest view;
+        extract::ExtractedFrame* frame = nullptr;
+        bool isDefocused = false; ///< ViewFacts::isDefocused
     };
 
     /// Resources of one frame in flight.
@@ -242,6 +251,11 @@ class Renderer {
     /// per row, then the sky's
     core::Result<std::vector<float>>
     drawMotion(const scene::World& world, const extract::ViewRequest& view);
+    /// Extracts a frame. Under a lens that spreads something, no samples of static surfaces are
+    /// gathered: each frame has several per pixel instead, so that a static picture does not change
+    /// from frame to frame, and bright points keep their light.
+    [[nodiscard]] core::Result<OwnFrame>
+    extractOwn(const scene::World& world, const extract::ViewRequest& view, bool hasEffects);
     /// \param frame the context's, which gets its ExtractedFrame::layerRows
     RunningEffects askEffects(
         const ExtractContext& context,
@@ -301,6 +315,7 @@ class Renderer {
     ParticlePass mParticlePass;
     graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
     extract::FrameExtractor mExtractor;
+    bool mWasDefocused = false;                ///< the last frame
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight
     uint32_t mNextSlot = 0;
     std::deque<PendingFrame> mPending;                 ///< oldest first

@@ -89,12 +89,7 @@ core::Status Renderer::extractForEffects(
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
     // Nothing gathers the samples of static surfaces in these.
-    extract::ViewRequest view = context.view;
-    if (view.jittered == extract::Jittered::Static) {
-        view.jittered = extract::Jittered::All;
-        view.jitterPx = math::dvec2(0.0);
-        view.staticLodBias = 0.0f;
-    }
+    extract::ViewRequest view = extract::withoutStaticSamples(context.view);
     view.samplesEdges = running.samplesEdges; // as this frame is drawn
     if (running.secondRaster.run)
         SHUTTER_TRY(

@@ -105,15 +105,15 @@ bindBoth(const gpu::Device& device, const graph::PassResources& resources, const
 SampleSplit::SampleSplit(gpu::Device& device)
     : mDevice(device), mSplit(device, describeSplit()), mEdges(device, describeEdges()) {}
 
-GBuffer SampleSplit::declare(
-    graph::Graph& graph, const Samples& samples, bool keepsEdges, bool hasBlended
-) const {
+GBuffer
+SampleSplit::declare(graph::Graph& graph, const Samples& samples, const Request& request) const {
     const graph::TransientImageDesc size = graph.describeImage(samples.color);
     const shader::SplitParams params{
         {size.width, size.height},
-        keepsEdges ? 1u : 0u,
-        hasBlended ? 1u : 0u,
-        samples.normal.isValid() ? 1u : 0u};
+        request.keepsEdges ? 1u : 0u,
+        request.hasBlended ? 1u : 0u,
+        samples.normal.isValid() ? 1u : 0u,
+        request.confusion};
     const EdgeList list = declareList(graph, params.sizePx);
     const Data& whole = graph.addPass<Data>(
         "split samples",
@@ -184,7 +184,7 @@ GBuffer SampleSplit::declare(
                 }
             )
             .split;
-    if (!keepsEdges)
+    if (!request.keepsEdges)
         result.edgeSurface = {};
     return result;
 }

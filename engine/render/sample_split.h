@@ -4,6 +4,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/math/math.h"
 #include "engine/render/gbuffer_images.h"
 
 namespace shutter::render {
@@ -21,11 +22,16 @@ class SampleSplit {
         graph::ImageHandle normal; ///< of kSampleNormalFormat: packNormal(); invalid: none
     };
 
-    /// \param keepsEdges GBuffer::edgeSurface is read: a pixel there has its own surface's colour
-    /// \param hasBlended blended surfaces are in the colours
+    struct Request {
+        /// GBuffer::edgeSurface is read: a pixel there has its own surface's colour.
+        bool keepsEdges = false;
+        math::vec2 confusion{0.0f}; ///< InstantMotions::confusion; 0: a pinhole
+        bool hasBlended = false;    ///< blended surfaces are in the colours
+    };
+
     /// \return one sample per pixel
     [[nodiscard]] GBuffer
-    declare(graph::Graph& graph, const Samples& samples, bool keepsEdges, bool hasBlended) const;
+    declare(graph::Graph& graph, const Samples& samples, const Request& request) const;
 
   private:
     gpu::Device& mDevice;

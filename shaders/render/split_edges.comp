@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/picture_space.glsl"
 #include "render/split_samples.glsl"
 
 layout(local_size_x = kSplitGroupSize) in;
@@ -13,11 +14,19 @@ layout(binding = 8, scalar) readonly buffer Edges {
     uint pixels[]; // x | y << 16
 } uEdges;
 
-/// Surfaces whose motion differs by less count as one: the mean of their colours moves with both.
+/// Surfaces whose motion differs by less, and whose circles of confusion by less than the other, count as
+/// one: the mean of their colours moves with both.
 const float kApartPx = 0.25f;
+const float kApartConfusionPx = 4.0f; // diameters; 0.25 gains no more, and needs more searches
+
+/// Diameter of the circle of confusion, pixels, negative before the focus plane.
+float confusionAt(float depth) {
+    return 2.0f * (params.confusion.x - params.confusion.y / max(depth, kMinDepth));
+}
 
 bool isSame(vec3 motionDepthA, vec3 motionDepthB) {
-    return distance(motionDepthA.xy, motionDepthB.xy) < kApartPx;
+    return distance(motionDepthA.xy, motionDepthB.xy) < kApartPx &&
+           abs(confusionAt(motionDepthA.z) - confusionAt(motionDepthB.z)) < kApartConfusionPx;
 }
 
 /// A bit for each of the samples that are of the surface which covers most of them; of two that cover

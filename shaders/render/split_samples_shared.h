@@ -79,12 +79,13 @@ struct SplitParams {
     uint keepsEdges; // 1: at an edge a pixel has its own surface's colour; 0: the mean
     uint hasBlended; // 1: blended surfaces were drawn, which are in colours alone
     uint hasNormals; // 0: normals are neither read nor written
+    vec2 confusion;  // InstantMotions::confusion; 0: a pinhole
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::SplitParams) == 20);
+static_assert(sizeof(shutter::shader::SplitParams) == 28);
 #endif
 
 #endif

@@ -3,11 +3,13 @@
 // no ghosts of moved, removed or changed objects remain.
 #include "engine/extract/shadow_plan.h"
 #include "engine/scene/history.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/particle_emitter.h"
 #include "engine/scene/path.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -196,6 +198,97 @@ TEST_F(TaaSequence, ACameraThatStopsAndSetsOffHasTheBitsOfAResumeOnceItIsSettled
         EXPECT_NE(drawn[-1], drawn[0]);
         EXPECT_NE(drawn[18], drawn[23]);
     }
+}
+
+/// Through a lens that is focused on a turned square at kFocus, before a wall far behind it.
+class TaaLens : public TaaSequence {
+  protected:
+    static constexpr double kFocus = 4.0;
+
+    TaaLens() {
+        mMethod = "resolved";
+        mScene.world.registry.add(
+            mScene.camera, scene::CameraLens{.fStop = 0.04, .focusDistance = kFocus}
+        );
+    }
+
+    void addSquare(const math::vec3& color, double side) {
+        mScene.add(
+            test::makeQuad(side, side, mScene.addColor(color)),
+            {.position = {0, 0, -kFocus}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
+        );
+    }
+};
+
+TEST_F(TaaLens, AStaticPictureHasTheSameBitsInEachFrame) {
+    addTiles({.position = {0, 0, -9}});
+    addSquare({0.9f, 0.2f, 0.1f}, 1.5);
+    test::Frames frames(device(), mScene);
+    const auto first = drawFrame(frames, 0);
+    for (int frame = 1; frame < 5; ++frame)
+        EXPECT_EQ(drawFrame(frames, frame), first) << frame;
+    // Focused on the wall and stopped down it leaves all in focus: a pinhole's history.
+    auto& lens = mScene.world.registry.get<scene::CameraLens>(mScene.camera);
+    lens = {.fStop = 22.0, .focusDistance = 9.0};
+    const image::Image sharp = draw(AntiAliasing::Taa);
+    lens.fStop = 0.0;
+    EXPECT_EQ(draw(AntiAliasing::Taa).pixels, sharp.pixels);
+}
+
+TEST_F(TaaLens, AFrameHasTheSameBitsWhetherOrNotTheOneBeforeWasInFocus) {
+    addTiles({.position = {0, 0, -9}});
+    scene::FocusMotion focus;
+    focus.keys = {
+        {.seconds = 0.0, .focusDistance = kFocus, .fStop = 1.0e6},
+        {.seconds = kSeconds + 0.5 / 24.0, .focusDistance = kFocus, .fStop = 0.12, .cut = true},
+        {.seconds = kSeconds + 3.5 / 24.0, .focusDistance = kFocus, .fStop = 1.0e6, .cut = true}};
+    mScene.world.registry.add(mScene.camera, focus);
+    mExposureSeconds = 1.0 / 240.0;
+    test::Frames frames(device(), mScene);
+    for (int frame = 0; frame < 6; ++frame) {
+        const auto drawn = drawFrame(frames, frame);
+        if (frame != 1 && frame != 3)
+            continue;
+        test::Frames resumed(device(), mScene);
+        EXPECT_EQ(drawFrame(resumed, frame), drawn) << frame;
+    }
+}
+
+TEST_F(TaaLens, ABrightPointKeepsItsLight) {
+    mScene.add(
+        test::makeQuad(0.3, 0.3, mScene.addColor(math::vec3(40.0f))), {.position = {0.05, 0.02, -9}}
+    );
+    const auto sumLight = [](const image::Image& picture) {
+        double sum = 0.0;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+                sum += picture.at(x, y, 0);
+        return sum;
+    };
+    const double expected = sumLight(draw(AntiAliasing::Box));
+    ASSERT_GT(expected, 100.0);
+    EXPECT_NEAR(sumLight(draw(AntiAliasing::Taa)), expected, 0.1 * expected);
+}
+
+TEST_F(TaaLens, AnEdgeInFocusSpreadsNoneOfItsColorOverWhatIsBehind) {
+    mScene.add(
+        test::makeQuad(60.0, 60.0, mScene.addColor(math::vec3(0.0f))), {.position = {0, 0, -12}}
+    );
+    addSquare(math::vec3(0.9f), 1.5);
+    const image::Image picture = draw(AntiAliasing::Taa);
+    const double half = 0.75 * kHeight / (2.0 * std::tan(0.45) * kFocus);
+    double most = 0.0;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            const math::dvec2 from(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
+            const math::dvec2 turned(
+                from.x * std::cos(0.2) - from.y * std::sin(0.2),
+                from.x * std::sin(0.2) + from.y * std::cos(0.2)
+            );
+            if (std::max(std::abs(turned.x), std::abs(turned.y)) > half + 1.5)
+                most = std::max(most, double(picture.at(x, y, 0)));
+        }
+    EXPECT_LT(most, 0.004);
 }
 
 TEST_F(TaaLaw, AConstantColorStaysAsItIs) {
