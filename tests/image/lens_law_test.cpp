@@ -360,7 +360,7 @@ TEST_F(LensLight, AMovingBrightPointLeavesTheLightAndThePlaceOfManyPictures) {
             )
         );
         // At its border some samples see it in the last frame's raster, which holds it yet.
-        EXPECT_NEAR(sumLight(seen) / sumLight(many), 1.0, usesHistory ? 0.045 : 0.005) << speedPx;
+        EXPECT_NEAR(sumLight(seen) / sumLight(many), 1.0, usesHistory ? 0.055 : 0.005) << speedPx;
         EXPECT_LE(glm::length(apart), usesHistory ? 0.2 : 0.1) << speedPx;
     }
 }
@@ -454,7 +454,8 @@ TEST_F(LensLight, BrightPointsBeyondTheMaximumKeepTheirLightAndTheSameBitsInEach
         return test::renderOnce(device(), scene, makeLensShot("resolved")).color;
     };
     const image::Image first = draw();
-    EXPECT_NEAR(sumLight(first) / (kAcross * kAcross * 40.0), 1.0, 0.012);
+    // Most of them remain samples, which see a lamp of a pixel more or less often.
+    EXPECT_NEAR(sumLight(first) / (kAcross * kAcross * 40.0), 1.0, 0.035);
     EXPECT_TRUE(test::sameBits(draw(), first));
 }
 
