@@ -17,7 +17,6 @@ layout(push_constant, scalar) uniform Push {
     ResolvedParams method;
 };
 
-#include "motion_blur/bright_points_shared.h"
 #include "motion_blur/resolved_rays.glsl"
 
 layout(binding = 23, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
@@ -43,28 +42,11 @@ ShutterRay makeSampleRay(FrameRef frame, TimedRef moving, vec2 place, uint insta
     return ray;
 }
 
-/// The colour that a ray met. A point that this frame's raster shows, and that was taken out of it, is
-/// drawn as a disc, which has all of its light.
+/// The colour that a ray met.
 /// \param place in the picture that the ray starts from
 vec3 colorOfRay(DistributedSample seen, PixelSearch search, vec2 place, uint instant) {
     vec3 color = storableColor(seen.radiance);
-    if (!kHasLens) return color;
-    uint key = keyOfId(seen.id.entity);
-    uint mover = findMover(search.raster, key);
-    if (mover == kNoMover || isDeformed(mover)) return color;
-    InstantMotion motion = motionAt(method, kHasLens, search.raster, mover, instant);
-    vec3 inRaster =
-        transformRows(motion.rasterFromInstant, pictureSpace(place, depthOfKey(key, seen.depth), true));
-    vec2 at = projectPicture(inRaster, true);
-    if (inRaster.z < kMinDepth || !isInside(at)) return color;
-    Footprint footprint = footprintOf(at);
-    for (uint i = 0u; i < 4u; ++i) {
-        ivec2 texel = texelOf(footprint, i);
-        vec4 taken = textureLod(uColor, uvOf(vec2(texel) + 0.5f), 0.0f);
-        if (taken.a == kTakenOutAlpha && fetchSurface(kRasterLayer, texel).key == key)
-            return min(color, taken.rgb);
-    }
-    return color;
+    return kHasLens ? withoutPoint(color, keyOfId(seen.id.entity), seen.depth, search, place, instant) : color;
 }
 
 void main() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BlockSampleBuffer up each pixel's sample at each instant of the exposure, in this frame's raster or else in
+// Looks up each pixel's sample at each instant of the exposure, in this frame's raster or else in
 // the last frame's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -64,7 +64,7 @@ void main() {
         vec3 color = vec3(0.0f);
         if (seen.isFound) {
             if (kHasLens) confusionPx = min(confusionPx, confusionOf(seen));
-            color = colorThroughLens(seen, instant);
+            color = colorThroughLens(seen, search, instant);
             fromSecond += seen.layer == kSecondLayer ? 1u : 0u;
             fromLast += seen.layer == kLastLayer ? 1u : 0u;
             ++found;

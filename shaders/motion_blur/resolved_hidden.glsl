@@ -105,7 +105,11 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
 /// frame's raster, the one that emerges from behind its occluder at the nearest place. Crowded
 /// tiles have no list of such surfaces.
 Substitute findSubstitute(PixelSearch pixel, uint instant) {
-    if (kHasCrowds && pixel.isCrowded) return Substitute(0.0f, fetchOwnTap(pixel, instant));
+    if (kHasCrowds && pixel.isCrowded) {
+        // Through a lens the tap would add light of what hides the sample.
+        if (kHasLens) return Substitute(kFarthest, vec3(0.0f));
+        return Substitute(0.0f, fetchOwnTap(pixel, instant));
+    }
     Substitute best = Substitute(kFarthest, vec3(0.0f));
     if (pixel.raster.isStatic != 0u) {
         Probe surface = fetchSurface(kRasterLayer, ivec2(pixel.x));

@@ -4,6 +4,7 @@
 #ifndef SHUTTER_RESOLVED_LENS_COLOR_GLSL
 #define SHUTTER_RESOLVED_LENS_COLOR_GLSL
 
+#include "motion_blur/bright_points_shared.h"
 #include "motion_blur/resolved_lens.glsl"
 #include "motion_blur/resolved_search.glsl"
 
@@ -28,6 +29,33 @@ Seen placeForColor(Seen seen, uint instant) {
     return seen;
 }
 
-vec3 colorThroughLens(Seen seen, uint instant) { return colorOf(placeForColor(seen, instant)); }
+/// The colour of a surface without the light of a point that was taken out of this frame's raster: its
+/// disc has all of it.
+/// \param depth at the instant
+/// \param place in the picture that it is seen from
+vec3 withoutPoint(vec3 color, uint key, float depth, PixelSearch search, vec2 place, uint instant) {
+    uint mover = findMover(search.raster, key);
+    if (mover == kNoMover || isDeformed(mover)) return color;
+    InstantMotion motion = motionAt(method, kHasLens, search.raster, mover, instant);
+    vec3 inRaster =
+        transformRows(motion.rasterFromInstant, pictureSpace(place, depthOfKey(key, depth), true));
+    vec2 at = projectPicture(inRaster, true);
+    if (inRaster.z < kMinDepth || !isInside(at)) return color;
+    Footprint footprint = footprintOf(at);
+    for (uint i = 0u; i < 4u; ++i) {
+        ivec2 texel = texelOf(footprint, i);
+        vec4 taken = textureLod(uColor, uvOf(vec2(texel) + 0.5f), 0.0f);
+        if (taken.a == kTakenOutAlpha && fetchSurface(kRasterLayer, texel).key == key)
+            return min(color, taken.rgb);
+    }
+    return color;
+}
+
+vec3 colorThroughLens(Seen seen, PixelSearch search, uint instant) {
+    vec3 color = colorOf(placeForColor(seen, instant));
+    // Points are taken out of no other raster.
+    if (!kHasLens || seen.layer == kRasterLayer || seen.key == kNoKey) return color;
+    return withoutPoint(color, seen.key, seen.depth, search, search.x, instant);
+}
 
 #endif

@@ -55,7 +55,7 @@ LookedUp lookUpAgain(
     vec3 color = vec3(0.0f);
     bool isKnown = seen.isFound;
     if (seen.isFound) {
-        color = colorThroughLens(seen, instant);
+        color = colorThroughLens(seen, search, instant);
     } else {
         Substitute substitute = findSubstitute(search, instant);
         isKnown = substitute.distancePx < kFarthest;
