@@ -81,7 +81,8 @@ struct ViewRequest {
     FrameFit frameFit = FrameFit::Whole;
     math::dvec2 jitterPx{0.0}; ///< moves the sample inside the pixel, [-0.5, 0.5]
     Jittered jittered = Jittered::All;
-    /// Edges are drawn with several samples per pixel while the camera moves, where the device can.
+    /// Edges are drawn with several samples per pixel while the camera moves or its lens spreads
+    /// something, where the device can.
     bool samplesEdges = false;
     /// The camera has a lens (scene::hasLens()), and the method samples many points of it. False:
     /// the view of a pinhole at its centre.

@@ -38,7 +38,9 @@ makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 /// neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as Karis
 /// 2014 ("High Quality Temporal Supersampling"). Movers have one sample at the pixel's centre and
 /// no history: motion blur smooths it, and reprojected history is farther from the mean over the
-/// pixel than none (docs/anti_aliasing.md). Runs on the linear picture before the motion blur. The
+/// pixel than none (docs/anti_aliasing.md). Where a lens spreads something, nothing has: what is
+/// out of focus has several samples per pixel instead. Runs on the linear picture before the motion
+/// blur. The
 /// view must be one of makeJittered(); afterwards its colour has no jitter
 /// (ExtractContext::colorJitterPx), other images of the raster remain jittered where the surface is
 /// static. Memory: 20 bytes per pixel: sum, count and row.

@@ -14,10 +14,11 @@ layout(binding = 8, scalar) readonly buffer Edges {
     uint pixels[]; // x | y << 16
 } uEdges;
 
-/// Surfaces whose motion differs by less, and whose circles of confusion by less than the other, count as
-/// one: the mean of their colours moves with both.
+/// Surfaces whose motion differs by less, and the diameters of whose circles of confusion by less than the
+/// other, count as one: the mean of their colours moves with both. A smaller difference of diameters needs
+/// more searches and gains nothing: `near` of the suite `lens` has 43.6 dB, with 0.25 px 42.9.
 const float kApartPx = 0.25f;
-const float kApartConfusionPx = 4.0f; // diameters; 0.25 gains no more, and needs more searches
+const float kApartConfusionPx = 4.0f;
 
 /// Diameter of the circle of confusion, pixels, negative before the focus plane.
 float confusionAt(float depth) {

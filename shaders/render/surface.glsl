@@ -142,7 +142,8 @@ vec4 evaluateBaseColor(
 }
 
 #ifdef SHUTTER_MASKS_SAMPLES
-/// Of the samples whose alpha reaches the cutoff. \param passing a bit for each of them
+/// Base colour: the mean over the samples whose alpha reaches the cutoff.
+/// \param passing a bit for each of them
 vec4 evaluateMaskedColor(
     FrameRef frame, MaterialRow material, SurfacePoint point, float footprint, float cosine,
     out uint passing

@@ -235,23 +235,21 @@ TEST_F(TaaLens, AStaticPictureHasTheSameBitsInEachFrame) {
     EXPECT_EQ(draw(AntiAliasing::Taa).pixels, sharp.pixels);
 }
 
-TEST_F(TaaLens, AFrameHasTheSameBitsWhetherOrNotTheOneBeforeWasInFocus) {
+/// Whether a lens spreads something is known only after the frame's places have been extracted.
+TEST_F(TaaLens, TheFirstFrameOutOfFocusHasTheBitsOfThoseAfterIt) {
     addTiles({.position = {0, 0, -9}});
     scene::FocusMotion focus;
     focus.keys = {
         {.seconds = 0.0, .focusDistance = kFocus, .fStop = 1.0e6},
-        {.seconds = kSeconds + 0.5 / 24.0, .focusDistance = kFocus, .fStop = 0.12, .cut = true},
-        {.seconds = kSeconds + 3.5 / 24.0, .focusDistance = kFocus, .fStop = 1.0e6, .cut = true}};
+        {.seconds = kSeconds + 0.5 / 24.0, .focusDistance = kFocus, .fStop = 0.12, .cut = true}};
     mScene.world.registry.add(mScene.camera, focus);
     mExposureSeconds = 1.0 / 240.0;
     test::Frames frames(device(), mScene);
-    for (int frame = 0; frame < 6; ++frame) {
-        const auto drawn = drawFrame(frames, frame);
-        if (frame != 1 && frame != 3)
-            continue;
-        test::Frames resumed(device(), mScene);
-        EXPECT_EQ(drawFrame(resumed, frame), drawn) << frame;
-    }
+    const auto sharp = drawFrame(frames, 0);
+    const auto first = drawFrame(frames, 1);
+    EXPECT_NE(first, sharp);
+    for (int frame = 2; frame < 5; ++frame)
+        EXPECT_EQ(drawFrame(frames, frame), first) << frame;
 }
 
 TEST_F(TaaLens, ABrightPointKeepsItsLight) {
@@ -313,13 +311,22 @@ class TaaEdge : public TaaLaw {
     }
 
     /// A turned square near the middle of the picture at kSeconds.
-    void addSquare(const math::vec3& color, double distance, const math::dvec3& velocity = {}) {
+    void addTurned(
+        double side,
+        scene::AssetIndex material,
+        double distance = kDistance,
+        const math::dvec3& velocity = {}
+    ) {
         mScene.add(
-            test::makeQuad(1.4, 1.4, mScene.addColor(color)),
+            test::makeQuad(side, side, material),
             {.position = math::dvec3(mSpeed, 0, -distance) - velocity * kSeconds,
              .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1)),
              .velocity = velocity}
         );
+    }
+
+    void addSquare(const math::vec3& color, double distance, const math::dvec3& velocity = {}) {
+        addTurned(1.4, mScene.addColor(color), distance, velocity);
     }
 
     void addWall(const math::vec3& color, double distance) {
@@ -419,10 +426,7 @@ TEST_F(TaaEdge, EdgesOfAlphaMasksAreSmooth) {
     leaves.alphaMode = scene::AlphaMode::Mask;
     leaves.baseColor.texture = mScene.addWaveTexture(64, true);
     mScene.world.assets.textures.back().nearest = true; // as sharp as their edges can be
-    mScene.add(
-        test::makeQuad(4.0, 4.0, mScene.addMaterial(leaves)),
-        {.position = {mSpeed, 0, -kDistance}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
-    );
+    addTurned(4.0, mScene.addMaterial(leaves));
     for (const std::string_view method : {"sharp", "resolved"}) {
         mMethod = method;
         EXPECT_LT(measureError(AntiAliasing::Taa), 0.7 * measureError(AntiAliasing::None))
@@ -480,10 +484,7 @@ TEST_F(TaaEdge, AnEdgeOfGlassIsSmooth) {
     glass.unlit = true;
     glass.alphaMode = scene::AlphaMode::Blend;
     glass.baseColorFactor = {0.9f, 0.9f, 0.9f, 0.8f};
-    mScene.add(
-        test::makeQuad(1.4, 1.4, mScene.addMaterial(glass)),
-        {.position = {mSpeed, 0, -kDistance}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
-    );
+    addTurned(1.4, mScene.addMaterial(glass));
     EXPECT_LT(measureError(AntiAliasing::Taa), 0.65 * measureError(AntiAliasing::None));
 }
 
