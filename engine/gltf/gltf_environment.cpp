@@ -4,6 +4,7 @@
 #include "engine/environment/environment.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
+#include "engine/math/srgb.h"
 
 #include <array>
 #include <cmath>
@@ -40,10 +41,7 @@ itemOf(const tinygltf::Value& array, size_t index, size_t count, const std::stri
 
 /// RGBD, where there is an alpha channel: colours that are divided by it; sRGB.
 float decode(uint8_t color, uint8_t divisor) {
-    const float encoded = float(color) / 255.0f;
-    const float linear =
-        encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-    return linear / (std::max(float(divisor), 1.0f) / 255.0f);
+    return math::decodeSrgb(float(color) / 255.0f) / (std::max(float(divisor), 1.0f) / 255.0f);
 }
 
 image::Image readSide(GltfContext& context, const tinygltf::Value& value, const std::string& path) {

@@ -5,6 +5,7 @@
 #include "engine/gpu/memory_blocks.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu_scene/mask_levels.h"
 
 #include <fmt/format.h>
 
@@ -149,11 +150,16 @@ TextureTable::uploadImages(const scene::Assets& assets, const std::vector<bool>&
     const gpu::BlockPlan plan = gpu::planBlocks(needs);
     for (const gpu::BlockPlan::Block& block : plan.blocks)
         mBlocks.emplace_back(mDevice, block.bytes, block.typeBits);
+    const std::map<scene::AssetIndex, float> masks = findMasks(assets);
     std::vector<gpu::TextureUpload> uploads;
     for (size_t i = 0; i < mImages.size(); ++i) {
         mImages[i].bind(mBlocks[plan.places[i].block].handle(), plan.places[i].offset);
-        const std::span rgba(assets.images[sources[i]].rgba);
-        uploads.push_back({&mImages[i], std::as_bytes(rgba)});
+        const scene::TextureImage& source = assets.images[sources[i]];
+        const auto mask = masks.find(sources[i]);
+        if (mask != masks.end() && mImages[i].desc().format == VK_FORMAT_R8G8B8A8_SRGB)
+            uploadMask(source, mask->second, mImages[i]);
+        else
+            uploads.push_back({&mImages[i], std::as_bytes(std::span(source.rgba))});
     }
     gpu::uploadTextures(mDevice, uploads);
     std::vector<VkImageView> views(used.size(), VK_NULL_HANDLE);
@@ -161,6 +167,16 @@ TextureTable::uploadImages(const scene::Assets& assets, const std::vector<bool>&
         if (used[i])
             views[i] = mImages[known.at({assets.textures[i / 2].image, i % 2 == 0})].view();
     return views;
+}
+
+void TextureTable::uploadMask(
+    const scene::TextureImage& source, float cutoff, const gpu::Image& target
+) {
+    const std::vector<std::vector<uint8_t>> smaller = makeMaskLevels(source, cutoff);
+    std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(source.rgba))};
+    for (const std::vector<uint8_t>& level : smaller)
+        levels.push_back(std::as_bytes(std::span(level)));
+    gpu::uploadLevels(mDevice, target, levels);
 }
 
 VkSampler TextureTable::findSampler(const scene::Texture& texture) {

@@ -53,6 +53,8 @@ class TextureTable {
     /// \return by place in the set, null where no image is
     std::vector<VkImageView>
     uploadImages(const scene::Assets& assets, const std::vector<bool>& used);
+    /// \param cutoff of the image's own alpha
+    void uploadMask(const scene::TextureImage& source, float cutoff, const gpu::Image& target);
     void addEnvironment(const scene::Environment& environment, uint32_t first);
     void addDirections(
         const char* name, std::span<const scene::DirectionPicture> levels, uint32_t place

@@ -2,6 +2,7 @@
 #include "engine/image/flip.h"
 
 #include "engine/image/metric_parts.h"
+#include "engine/math/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -80,11 +81,6 @@ Color multiply(const Matrix& m, const Color& c) {
         return float(m[i][0]) * c.x + float(m[i][1]) * c.y + float(m[i][2]) * c.z;
     };
     return {row(0), row(1), row(2)};
-}
-
-/// IEC 61966-2-1.
-float decodeSrgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 /// CIE 15: the compression of L*a*b*.
@@ -223,7 +219,9 @@ Opponents computeOpponents(const Image& image) {
         Plane(image.width, image.height)};
     for (size_t i = 0; i < result.luminance.values.size(); ++i) {
         const float* pixel = image.pixels.data() + i * image.channels;
-        const auto decode = [&](size_t channel) { return decodeSrgb(clampToUnit(pixel[channel])); };
+        const auto decode = [&](size_t channel) {
+            return math::decodeSrgb(clampToUnit(pixel[channel]));
+        };
         const float first = decode(0);
         const Color xyz = multiply(
             kRelativeXyzFromRgb,
@@ -337,10 +335,6 @@ double solveCurve() {
     return half + std::sqrt(half * half - c / a);
 }
 
-float encodeSrgb(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
 /// As a display shows it at an exposure.
 Image show(const Image& linear, float factor) {
     Image shown(linear.width, linear.height, 3);
@@ -350,7 +344,7 @@ Image show(const Image& linear, float factor) {
             // Infinity over infinity is none; so much light is white. NaN passes through.
             const float bright = std::min(std::max(light * factor, 0.0f), 1.0e6f);
             shown.pixels[i * 3 + c] =
-                std::isnan(light) ? light : encodeSrgb(clampToUnit(applyCurve(bright)));
+                std::isnan(light) ? light : math::encodeSrgb(clampToUnit(applyCurve(bright)));
         }
     return shown;
 }

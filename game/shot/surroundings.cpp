@@ -6,6 +6,7 @@
 #include "engine/image/channels.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/math/srgb.h"
 #include "engine/scene/motion.h"
 
 #include <fmt/ranges.h>
@@ -18,11 +19,6 @@
 namespace shutter::game {
 
 namespace {
-
-/// IEC 61966-2-1.
-float toLinear(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 bool isOpaque(const image::Image& picture, uint32_t alpha) {
     for (size_t i = alpha; i < picture.pixels.size(); i += picture.channels)
@@ -79,7 +75,7 @@ core::Result<scene::Environment> readEnvironment(const ShotOptions& options) {
     image::Image picture = std::move(colors).value();
     if (isDisplayEncoded)
         for (float& value : picture.pixels)
-            value = toLinear(value);
+            value = math::decodeSrgb(value);
     auto made = environment::makeEnvironment(std::move(picture), options.surroundings);
     if (!made)
         return core::makeError("{}: {}", options.environment.string(), made.error().message);

@@ -138,6 +138,30 @@ TEST_F(TaaLaw, AStaticPictureIsTheMeanOverThePixel) {
     EXPECT_LT(measureError(AntiAliasing::Taa), 0.25 * measureError(AntiAliasing::None));
 }
 
+/// By its mip levels, which one sample per pixel reads, and by its texels, which many do.
+TEST_F(TaaLaw, AMaskFarAwayCoversAsMuchInOneSampleAsOverThePixel) {
+    scene::Material blades;
+    blades.unlit = true;
+    blades.alphaMode = scene::AlphaMode::Mask;
+    blades.baseColor.texture = mScene.addWaveTexture(256, true);
+    std::vector<uint8_t>& rgba = mScene.world.assets.images.back().rgba;
+    for (size_t i = 0; i < rgba.size(); i += 4) // leaning, a fifth of the area
+        rgba[i + 3] = (i + i / 1024) % 128 < 24 ? 255 : 0;
+    mScene.add(
+        test::makeQuad(3.0, 3.0, mScene.addMaterial(blades)),
+        {.position = {0, 0, -9}, .rotation = glm::angleAxis(0.2, math::dvec3(0, 0, 1))}
+    );
+    const auto sumGreen = [](const image::Image& picture) {
+        double sum = 0.0;
+        for (size_t i = 1; i < picture.pixels.size(); i += picture.channels)
+            sum += picture.pixels[i];
+        return sum;
+    };
+    const double expected = sumGreen(draw(AntiAliasing::Box));
+    ASSERT_GT(expected, 10.0);
+    EXPECT_NEAR(sumGreen(draw(AntiAliasing::None)), expected, 0.2 * expected);
+}
+
 /// Frames that follow one another, of one view.
 class TaaSequence : public TaaLaw {
   protected:
