@@ -37,6 +37,7 @@ struct TimedTables {
     math::vec4 view{0.0f}; ///< TimedConstants::view
     std::vector<shader::LensKey> lens;    ///< TimedConstants::lensKeys; empty: a pinhole
     math::vec4 aperture{0.0f};            ///< TimedConstants::aperture
+    math::vec2 jitterPx{0.0f};            ///< of the picture: TimedConstants::jitterPx
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be hit, in spatial order

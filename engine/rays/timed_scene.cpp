@@ -101,6 +101,7 @@ TimedScene::upload(const extract::TimedTables& tables, std::vector<shader::Timed
     constants.lensKeyCount = static_cast<uint32_t>(tables.lens.size());
     constants.lensKeys = gpu::splitAddress(base + lensAt);
     constants.aperture = tables.aperture;
+    constants.jitterPx = tables.jitterPx;
     mTables.writeBytes(&constants, sizeof(constants), constantsAt);
     mTables.write(std::span<const shader::TimedRow>(rows), rowsAt);
     mTables.write(std::span<const uint32_t>(tables.moving), boxesAt);

@@ -281,6 +281,7 @@ core::Status Renderer::submitFrame(
         if (!computed)
             return computed.error();
         moving = std::move(computed).value();
+        moving->jitterPx = math::vec2(context.colorJitterPx);
     }
 
     extract::ShadowPlan shadows = extract::planShadows(

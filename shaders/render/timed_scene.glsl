@@ -91,11 +91,11 @@ struct ShutterRay {
 };
 
 /// The ray of a place in the picture at shutter time s. It starts where raster clips.
-/// \param screenPx pixels from the top left corner
+/// \param screenPx pixels from the top left corner, without the picture's jitter
 ShutterRay makeShutterRay(FrameRef frame, TimedRef moving, vec2 screenPx, float s) {
     vec4 rows[3];
     interpolate(moving.value.cameraKeys, moving.value.cameraKeyCount, s, rows);
-    vec2 ndc = screenPx / frame.value.sizePx * 2.0f - 1.0f;
+    vec2 ndc = (screenPx + moving.value.jitterPx) / frame.value.sizePx * 2.0f - 1.0f;
     vec4 view = moving.value.view;
     vec2 across = vec2(ndc.x, -ndc.y) * view.xy;
     bool perspective = view.w > 0.0f;

@@ -47,8 +47,7 @@ struct TimedConstants {
     uint lensKeyCount; // 0: a pinhole
     uvec2 lensKeys;    // address of LensKey[], uniform over s, both ends included
     vec4 aperture;     // Aperture's fields
-    uint padding0;
-    uint padding1;
+    vec2 jitterPx;     // from the middle of a pixel to where the picture samples it, right and down
 };
 
 SHUTTER_SHADER_END

@@ -2,6 +2,7 @@
 // Temporal anti-aliasing against the mean over the pixel: it is that mean where nothing moves, and
 // no ghosts of moved, removed or changed objects remain.
 #include "engine/extract/shadow_plan.h"
+#include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/particle_emitter.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -403,6 +405,20 @@ TEST_F(TaaEdge, AdaptiveWithoutRaysHasTheBitsOfResolved) {
     EXPECT_EQ(draw(AntiAliasing::Taa).pixels, expected.pixels);
     mRaysPerPixel = 1.0f;
     EXPECT_NE(draw(AntiAliasing::Taa).pixels, expected.pixels);
+}
+
+TEST_F(TaaEdge, RaysStartWhereAPictureThatIsMovedInThePixelSamples) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << "adaptive needs ray queries";
+    slideCamera(1.5);
+    addWall(math::vec3(0.05f), 9.0);
+    addSquare(math::vec3(0.9f), kDistance);
+    mMethod = "resolved";
+    const image::Image expected = draw(AntiAliasing::Box);
+    mMethod = "adaptive";
+    mRaysPerPixel = std::numeric_limits<float>::infinity();
+    const double one = image::computePsnr(draw(AntiAliasing::None), expected);
+    EXPECT_GT(image::computePsnr(draw(AntiAliasing::Box), expected), one + 6.0);
 }
 
 TEST_F(TaaEdge, ASecondRasterMakesSilhouettesNoWorse) {
