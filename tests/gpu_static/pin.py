@@ -35,6 +35,9 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
     build = str(pipelines.pathlib.Path(sys.argv[1]).resolve())
+    layer = pipelines.pathlib.Path(build, "tests/gpu_static/layer/libshutter_statistics_layer.so")
+    if not layer.exists():
+        sys.exit(f"pin.py: {layer} is missing: without it renders wait forever; build everything first")
     pins = {}
     for family in pipelines.FAMILIES:
         mesa, pins[family] = pin(build, family)
