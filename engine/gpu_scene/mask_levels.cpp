@@ -35,16 +35,19 @@ struct Span {
     }
 };
 
+/// Of texel i of `count`, on an axis of `size` texels, which it does not leave by rounding.
+Span spanOf(uint32_t i, uint32_t count, uint32_t size) {
+    return {double(i) * size / count, double(i + 1) * size / count};
+}
+
 /// \param read the texel of the larger level at x, y
 template <typename Read> Level halve(uint32_t width, uint32_t height, const Read& read) {
     Level half{std::max(width / 2, 1u), std::max(height / 2, 1u), {}};
     half.texels.reserve(size_t(half.width) * half.height);
-    const double right = double(width) / half.width;
-    const double down = double(height) / half.height;
     for (uint32_t y = 0; y < half.height; ++y)
         for (uint32_t x = 0; x < half.width; ++x) {
-            const Span columns{x * right, (x + 1) * right};
-            const Span rows{y * down, (y + 1) * down};
+            const Span columns = spanOf(x, half.width, width);
+            const Span rows = spanOf(y, half.height, height);
             math::vec3 color(0.0f);
             float alpha = 0.0f;
             float seen = 0.0f;
@@ -53,8 +56,8 @@ template <typename Read> Level halve(uint32_t width, uint32_t height, const Read
                 for (uint32_t i = columns.first(); i <= columns.last(); ++i) {
                     const float share = columns.share(i) * rows.share(j);
                     const math::vec4 texel = read(i, j);
-                    const float weight =
-                        share * (texel.a + 1.0f / 255.0f); // transparent: all alike
+                    // Where all are transparent, all count alike.
+                    const float weight = share * (texel.a + 1.0f / 255.0f);
                     color += weight * math::vec3(texel);
                     seen += weight;
                     alpha += share * texel.a;

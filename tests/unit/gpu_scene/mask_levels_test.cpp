@@ -92,7 +92,8 @@ TEST(MaskLevels, WhatIsCutOutDoesNotTintTheRest) {
 }
 
 TEST(MaskLevels, ImagesOfAnySizeHaveAllLevelsAndOpaqueOnesStayOpaque) {
-    for (const auto& [width, height] : {std::pair{1u, 1u}, {5u, 3u}, {1u, 6u}, {64u, 16u}}) {
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {5u, 3u}, {1u, 6u}, {64u, 16u}, {63u, 49u}}) {
         scene::TextureImage image;
         image.width = width;
         image.height = height;
