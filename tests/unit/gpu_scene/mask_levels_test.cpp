@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace shutter::gpu_scene {
 namespace {
