@@ -35,7 +35,8 @@ struct Span {
     }
 };
 
-/// Of texel i of `count`, on an axis of `size` texels, which it does not leave by rounding.
+/// The span of texel i of `count` on an axis of `size` texels. Rounding cannot take it beyond
+/// `size`.
 Span spanOf(uint32_t i, uint32_t count, uint32_t size) {
     return {double(i) * size / count, double(i + 1) * size / count};
 }

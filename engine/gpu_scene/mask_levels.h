@@ -18,7 +18,7 @@ namespace shutter::gpu_scene {
 
 /// Texels of all mip levels but the first, sRGB, tightly packed. As much of each reaches the cutoff
 /// as of the first level (Castaño 2010, "Computing Alpha Mipmaps"): means alone lose leaves and
-/// wires with the distance. Colours are means weighted by alpha, so that what is cut out does not
+/// wires with distance. Colours are means weighted by alpha, so that what is cut out does not
 /// tint the border.
 /// \param cutoff (0, 1]
 [[nodiscard]] std::vector<std::vector<uint8_t>>

@@ -38,8 +38,8 @@ struct TimedConstants {
                       // perspective, 0 not
     uvec2 rows;       // address of TimedRow[]
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
-    uvec2 cameraKeys; // address of MotionKey[]: relWorldFromView; rigid but for x and y, which a
-                      // lens that zooms scales by how much wider it sees than at the raster instant
+    uvec2 cameraKeys; // address of MotionKey[]: relWorldFromView; rigid except for x and y, which a
+                      // zooming lens scales by how much wider it sees than at the raster instant
     uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;

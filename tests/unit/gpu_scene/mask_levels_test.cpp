@@ -73,12 +73,13 @@ TEST(MaskLevels, EachLevelReachesTheCutoffAsMuchAsTheFirst) {
 }
 
 TEST(MaskLevels, LevelsThatAreEvenCoverAllOrNothing) {
-    for (const double radiusPx : {2.6, 3.8}) {
+    // Means alone would do the opposite.
+    for (const auto& [radiusPx, cutoff] : {std::pair{2.6, 0.3f}, {3.8, 0.9f}}) {
         const scene::TextureImage image = makeDiscs(64, 8, radiusPx);
         const double coverage = coverageOf(image.rgba, 0.5f);
-        const auto levels = makeMaskLevels(image, 0.5f);
+        const auto levels = makeMaskLevels(image, cutoff);
         for (size_t level = 2; level < levels.size(); ++level)
-            EXPECT_EQ(coverageOf(levels[level], 0.5f), coverage < 0.5 ? 0.0 : 1.0) << level;
+            EXPECT_EQ(coverageOf(levels[level], cutoff), coverage < 0.5 ? 0.0 : 1.0) << level;
     }
 }
 
