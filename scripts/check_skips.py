@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Compares the tests that a run of ctest skipped with those that are known to skip.
 
-usage: check_skips.py RESULTS EXPECTED
-RESULTS is what `ctest --output-junit` wrote for a run of all tests, EXPECTED a list of lines
-"CONDITION : PATTERN : REASON". PATTERN is a shell pattern for names of tests; a test that it matches
-may skip while CONDITION holds:
+usage: check_skips.py RESULTS CASES EXPECTED
+RESULTS is what `ctest --output-junit` wrote for a run of all tests. CASES is the folder in which
+suites of GoogleTest reported their cases (cmake/ListSuites.cmake), which count as tests
+"LABEL/SUITE.CASE" instead of their suite. EXPECTED is a list of lines "CONDITION : PATTERN : REASON".
+PATTERN is a shell pattern for names of tests; a test that it matches may skip while CONDITION holds:
   absent PATH          there is no such file or folder; PATH is relative to the repository
   no-program NAME...   one of the programs is not on PATH
   no-module NAME       python3 cannot import the module
@@ -96,14 +97,33 @@ def read_expectations(path):
     return expectations
 
 
-def read_results(path):
-    """The names of all tests, and of those that were skipped or are disabled."""
+def read_cases(path):
     try:
-        cases = list(ElementTree.parse(path).getroot().iter("testcase"))
+        return list(ElementTree.parse(path).getroot().iter("testcase"))
     except (OSError, ElementTree.ParseError) as error:
         sys.exit(f"check_skips: {path}: {error}")
-    tests = [case.get("name") for case in cases]
-    skipped = [case.get("name") for case in cases if case.get("status") in ("notrun", "disabled")]
+
+
+def read_results(results, folder):
+    """The names of all tests, and of those that were skipped or are disabled."""
+    suites = {}
+    for path in Path(folder).glob("*/*.xml"):
+        for case in read_cases(path):
+            suite = f"{path.parent.name}/{case.get('classname')}"
+            suites.setdefault(suite, []).append(case)
+    tests, skipped = [], []
+    for test in read_cases(results):
+        name = test.get("name")
+        if tests.count(name):
+            sys.exit(f"check_skips: two tests have the name {name}")
+        for case in suites.get(name, ()):
+            tests.append(f"{name}.{case.get('name')}")
+            if case.get("result") in ("skipped", "suppressed"):
+                skipped.append(tests[-1])
+        if name not in suites:
+            tests.append(name)
+            if test.get("status") in ("notrun", "disabled"):
+                skipped.append(name)
     return tests, skipped
 
 
@@ -122,15 +142,15 @@ def find_faults(tests, skipped, expectations):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__.strip())
-    expectations = read_expectations(sys.argv[2])
-    tests, skipped = read_results(sys.argv[1])
+    tests, skipped = read_results(*sys.argv[1:3])
+    expectations = read_expectations(sys.argv[3])
     if not tests:
         sys.exit(f"check_skips: {sys.argv[1]}: there are no tests")
     faults = list(find_faults(tests, skipped, expectations))
     if faults:
-        sys.exit(f"check_skips: tests and {sys.argv[2]} disagree: " + "; ".join(faults))
+        sys.exit(f"check_skips: tests and {sys.argv[3]} disagree: " + "; ".join(faults))
     print(f"check_skips: {len(skipped)} of {len(tests)} tests were skipped, all as expected")
 
 

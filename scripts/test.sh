@@ -25,8 +25,9 @@ if (($#)); then
     exit
 fi
 results=build/release/test_results.xml
+cases=build/release/test_results
 status=0
-rm -f "$results"
+rm -rf "$results" "$cases"
 run_ctest --output-junit "$root/$results" || status=$?
-scripts/check_skips.py "$results" tests/expected_skips.txt || status=1
+scripts/check_skips.py "$results" "$cases" tests/expected_skips.txt || status=1
 exit "$status"

@@ -6,8 +6,6 @@ namespace shutter::cli {
 
 namespace {
 
-constexpr int kFailed = 1;
-
 /// One triangle whose positions are `bytes` long in a buffer view of 36.
 std::string makeTriangle(size_t bytes, const std::string& more) {
     return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],

@@ -67,6 +67,10 @@ class Cli : public testing::Test {
     fs::path mLogs; ///< what the program prints, and its caches
 };
 
+// Exit statuses of the program.
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+
 /// Names lavapipe.
 inline const Arguments kOnSoftware = {"--device", "llvmpipe"};
 

@@ -15,9 +15,6 @@ namespace shutter::cli {
 
 namespace {
 
-constexpr int kFailed = 1;
-constexpr int kUsage = 2;
-
 class CliCompare : public Cli {
   protected:
     void writePicture(

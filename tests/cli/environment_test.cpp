@@ -8,8 +8,6 @@ namespace shutter::cli {
 
 namespace {
 
-constexpr int kFailed = 1;
-
 image::Image makePicture(uint32_t width, uint32_t height, float value) {
     image::Image picture(width, height, 3);
     for (float& v : picture.pixels)

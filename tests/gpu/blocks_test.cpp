@@ -435,21 +435,22 @@ TEST_F(BlockFilters, SurfacesBeyondTheDepthLimitCountAsStatic) {
 
 class RayMaskListing : public test::GpuTest {};
 
-constexpr uint32_t kWidth = 515; // the last block is of 3 x 5 pixels
-constexpr uint32_t kHeight = 221;
+constexpr uint32_t kOddWidth = 515; // the last block is of 3 x 5 pixels
+constexpr uint32_t kOddHeight = 221;
 
 /// Bars that move over a still wall, some by more than a block.
 struct Layer {
-    Image motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t y) {
+    Image motionDepth = makeMotion(kOddWidth, kOddHeight, [](uint32_t x, uint32_t y) {
         const uint32_t bar = barAt(x, y);
         return vec3(bar == 1 ? 14.0f : 0.0f, bar == 2 ? -5.0f : 0.0f, 6.0f - float(bar));
     });
-    Image normal = makeMotion(kWidth, kHeight, [](auto, auto) { return vec3(0.0f, 0.0f, 1.0f); });
-    Image id{kWidth, kHeight, 1};
+    Image normal =
+        makeMotion(kOddWidth, kOddHeight, [](auto, auto) { return vec3(0.0f, 0.0f, 1.0f); });
+    Image id{kOddWidth, kOddHeight, 1};
 
     Layer() {
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x)
+        for (uint32_t y = 0; y < kOddHeight; ++y)
+            for (uint32_t x = 0; x < kOddWidth; ++x)
                 id.at(x, y, 0) = float(barAt(x, y));
     }
 
@@ -530,7 +531,7 @@ Listed listMask(gpu::Device& device, MaskListing listing, float rayShare) {
     settings.method = &motion_blur::getMethod("hybrid");
     settings.tileSizePx = 16;
     settings.rayShare = rayShare;
-    const auto params = motion_blur::resolve(settings, kWidth, kHeight, 0.5);
+    const auto params = motion_blur::resolve(settings, kOddWidth, kOddHeight, 0.5);
     const motion_blur::TileMotion tileMotion(device);
     const motion_blur::BlockSorter sorter(device);
     const motion_blur::RayMask rayMask(device, listing);
@@ -563,7 +564,7 @@ Listed listMask(gpu::Device& device, MaskListing listing, float rayShare) {
     const auto words = copies.words(list);
     listed.header = {words[0], words[1], words[2], words[3]};
     listed.pixels = sortPart(words, kHead, listed.header.listedPixels);
-    const size_t blockCount = size_t((kWidth + 7) / 8) * ((kHeight + 7) / 8);
+    const size_t blockCount = size_t((kOddWidth + 7) / 8) * ((kOddHeight + 7) / 8);
     const auto sorted = copies.words(lists);
     listed.blocks = sortPart(sorted, kHead + shader::kMaskedList * blockCount, sorted[2]);
     const auto tileWords = copies.words(tileList);

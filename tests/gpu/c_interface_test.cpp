@@ -20,15 +20,15 @@
 namespace shutter {
 namespace {
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 64;
+constexpr uint32_t kHostWidth = 96;
+constexpr uint32_t kHostHeight = 64;
 
 class CInterface : public test::EmbeddedTest {
   protected:
     void SetUp() override {
         EmbeddedTest::SetUp();
         if (mBlur)
-            mHost.emplace(device(), kWidth, kHeight);
+            mHost.emplace(device(), kHostWidth, kHostHeight);
     }
 
     void TearDown() override {
@@ -97,7 +97,7 @@ TEST_F(CInterface, OlderStructuresAreTaken) {
 TEST_F(CInterface, EachPresetRunsAndOffIsACopy) {
     const test::BlurOfC c(describeMeasuring());
     const gpu::Image normal =
-        test::makeImage(device(), "normal", VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight);
+        test::makeImage(device(), "normal", VK_FORMAT_R16G16B16A16_SFLOAT, kHostWidth, kHostHeight);
     submit([&](VkCommandBuffer commands) {
         test::clear(commands, normal, {});
         test::moveOn(commands, normal.handle(), test::kWritten, test::kSampled);
@@ -105,7 +105,7 @@ TEST_F(CInterface, EachPresetRunsAndOffIsACopy) {
     const motion_blur::HostCameraKey key{
         1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, 1.5, 0.1)};
     const motion_blur::HostMover mover{0, {}};
-    const test::Picture output(device(), {kWidth, kHeight});
+    const test::Picture output(device(), {kHostWidth, kHostHeight});
     motion_blur::HostInputs given = mHost->inputs();
     given.entityId = mHost->ids();
     given.normal = {normal.handle(), test::kSampled, test::kSampled};
@@ -136,8 +136,8 @@ TEST_F(CInterface, PreparationAheadOfFramesSucceedsAndIsReported) {
     const ShutterBlurDevice described = describeMeasuring();
     const test::BlurOfC c(described);
     ShutterBlurPlan plan = shutterBlurDefaultPlan();
-    plan.width = kWidth;
-    plan.height = kHeight;
+    plan.width = kHostWidth;
+    plan.height = kHostHeight;
     uint64_t bytes = 0;
     EXPECT_EQ(shutterBlurEstimateMemory(&described, &plan, &bytes), SHUTTER_BLUR_SUCCESS)
         << shutterBlurGetMessage();
@@ -193,8 +193,8 @@ TEST_F(CInterface, TheCppObjectRecordsAPlanThatItWarmedUpFor) {
     const std::array<ShutterBlurValue, 1> values{{{"jitter", "0"}}};
     settings.setValues(values);
     BlurPlan plan;
-    plan.width = kWidth;
-    plan.height = kHeight;
+    plan.width = kHostWidth;
+    plan.height = kHostHeight;
     plan.outputFormat = VK_FORMAT_UNDEFINED;
     plan.settings = &settings;
     const auto bytes = MotionBlur::estimateMemory(described, plan);

@@ -9,8 +9,8 @@ namespace {
 using math::dmat4;
 using Given = GivenFrame;
 
-constexpr float kWidth = kCheckedWidth;
-constexpr float kHeight = kCheckedHeight;
+constexpr float kFloatWidth = kCheckedWidth;
+constexpr float kFloatHeight = kCheckedHeight;
 
 void lookAlongPlusZ(Given& given) {
     motion_blur::HostCameras& cameras = given.cameras;
@@ -25,18 +25,18 @@ void lookAlongPlusZ(Given& given) {
 void listVectors(Cases& add) {
     add("pixels, reversed depth", [](Given&) {});
     add("texture coordinates to the frame before", [](Given& g) {
-        scaleVectors(g, {-1.0f / kWidth, -1.0f / kHeight});
-        g.inputs.convention.vectors.pixelsPerUnit = {-kWidth, -kHeight};
+        scaleVectors(g, {-1.0f / kFloatWidth, -1.0f / kFloatHeight});
+        g.inputs.convention.vectors.pixelsPerUnit = {-kFloatWidth, -kFloatHeight};
     });
     add("normalised coordinates, y up", [](Given& g) {
-        scaleVectors(g, {2.0f / kWidth, -2.0f / kHeight});
-        g.inputs.convention.vectors.pixelsPerUnit = {kWidth / 2.0f, kHeight / -2.0f};
+        scaleVectors(g, {2.0f / kFloatWidth, -2.0f / kFloatHeight});
+        g.inputs.convention.vectors.pixelsPerUnit = {kFloatWidth / 2.0f, kFloatHeight / -2.0f};
     });
     add("half floats", [](Given& g) { g.vectorFormat = VK_FORMAT_R16G16_SFLOAT; });
     add("half floats of texture coordinates", [](Given& g) {
         g.vectorFormat = VK_FORMAT_R16G16_SFLOAT;
-        scaleVectors(g, {-1.0f / kWidth, -1.0f / kHeight});
-        g.inputs.convention.vectors.pixelsPerUnit = {-kWidth, -kHeight};
+        scaleVectors(g, {-1.0f / kFloatWidth, -1.0f / kFloatHeight});
+        g.inputs.convention.vectors.pixelsPerUnit = {-kFloatWidth, -kFloatHeight};
     });
     add("over the exposure, and declared to be",
         [](Given& g) { g.inputs.convention.scales.exposureShare = 1.0f; });

@@ -308,23 +308,24 @@ TEST_F(BrightestChannel, NanCountsAsBlackAndInfinityAsTheMostThereIs) {
 
 class LongestMotion : public test::GpuTest {};
 
-constexpr uint32_t kWidth = 53; // the last groups hang over
-constexpr uint32_t kHeight = 29;
-constexpr uint32_t kRows = 7; // row 6 has no pixels
+constexpr uint32_t kEffectWidth = 53; // the last groups hang over
+constexpr uint32_t kEffectHeight = 29;
+constexpr uint32_t kEffectRows = 7; // row 6 has no pixels
 
 struct LongestScene {
-    image::Image motionDepth{kWidth, kHeight, 4};
-    image::Image id{kWidth, kHeight, 1};
-    std::vector<float> longest = std::vector<float>(kRows + 1);
+    image::Image motionDepth{kEffectWidth, kEffectHeight, 4};
+    image::Image id{kEffectWidth, kEffectHeight, 1};
+    std::vector<float> longest = std::vector<float>(kEffectRows + 1);
 
     LongestScene() {
         std::mt19937 random(11);
         std::uniform_real_distribution<float> component(-30.0f, 30.0f);
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x) {
+        for (uint32_t y = 0; y < kEffectHeight; ++y)
+            for (uint32_t x = 0; x < kEffectWidth; ++x) {
                 // Areas larger than a group, and a corner where every pixel is another's.
-                const uint32_t row = x > 40 ? random() % (kRows + 1) : (x / 17 + 2 * (y / 15)) % 6;
-                const bool isSky = row == kRows || row == 6;
+                const uint32_t row =
+                    x > 40 ? random() % (kEffectRows + 1) : (x / 17 + 2 * (y / 15)) % 6;
+                const bool isSky = row == kEffectRows || row == 6;
                 const float speed = x % 3 == 0 ? std::numeric_limits<float>::quiet_NaN()
                                                : component(random) / float(row + 1);
                 motionDepth.at(x, y, 0) = speed;
@@ -332,7 +333,7 @@ struct LongestScene {
                 id.at(x, y, 0) = isSky ? 4.0e9f : float(row);
                 if (std::isnan(speed))
                     continue;
-                float& own = longest[isSky ? kRows : row];
+                float& own = longest[isSky ? kEffectRows : row];
                 own = std::max(own, std::hypot(speed, 0.5f * speed));
             }
     }
@@ -344,10 +345,10 @@ TEST_F(LongestMotion, TheMeasureEqualsThatOfThePixels) {
     for (int again = 0; again < 2; ++again) { // a frame's numbers are its own
         test::GraphRig rig(device());
         const auto motionDepth = rig.upload(scene.motionDepth);
-        test::EffectRig around(rig, motionDepth, kWidth, kHeight);
+        test::EffectRig around(rig, motionDepth, kEffectWidth, kEffectHeight);
         around.gbuffer.motionDepth = motionDepth;
         around.gbuffer.entityId = rig.uploadIds(scene.id);
-        around.frame.entities.resize(kRows);
+        around.frame.entities.resize(kEffectRows);
         effect.declare(around.context);
         test::run(rig);
         const std::vector<float> found = effect.take();
@@ -355,7 +356,7 @@ TEST_F(LongestMotion, TheMeasureEqualsThatOfThePixels) {
         for (size_t row = 0; row < found.size(); ++row)
             EXPECT_NEAR(found[row], scene.longest[row], 1e-5f * scene.longest[row]) << row;
         EXPECT_EQ(found[6], 0.0f);
-        EXPECT_GT(found[kRows], 0.0f);
+        EXPECT_GT(found[kEffectRows], 0.0f);
     }
 }
 

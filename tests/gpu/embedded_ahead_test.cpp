@@ -176,6 +176,9 @@ class EmbeddedAhead : public test::EmbeddedTest {
 TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
         for (const char* method : kHosts) {
+            // Each host makes its pipelines anew, for seconds.
+            if (size.x > 64 && method != kHosts.front() && method != kHosts.back())
+                continue;
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
             const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
@@ -215,6 +218,8 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
     for (const char* method : kHosts)
         for (const bool isAsynchronous : {false, true}) {
+            if (isAsynchronous && method != kHosts.front() && method != kHosts.back())
+                continue;
             SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());
             const Host host(device(), 96, 64);

@@ -36,8 +36,8 @@ using motion_blur::HostMover;
 using motion_blur::MotionBlurSettings;
 using test::HostTexels;
 
-constexpr VkExtent2D kSize{128, 48};
-constexpr int kInstants = 15;
+constexpr VkExtent2D kBlendedSize{128, 48};
+constexpr int kBlendedInstants = 15;
 constexpr double kRasterTime = 0.5;
 constexpr vec4 kPane{0.1f, 0.9f, 0.3f, 0.5f}; // of draw_blended.comp
 
@@ -67,17 +67,17 @@ float paneAt(uint32_t x, uint32_t y, double time) {
 }
 
 image::Image makeTruth(bool hasPane = true) {
-    image::Image truth(kSize.width, kSize.height, 4);
-    for (uint32_t y = 0; y < kSize.height; ++y)
-        for (uint32_t x = 0; x < kSize.width; ++x)
-            for (int i = 0; i < kInstants; ++i) {
-                const double time = (i + 0.5) / kInstants;
+    image::Image truth(kBlendedSize.width, kBlendedSize.height, 4);
+    for (uint32_t y = 0; y < kBlendedSize.height; ++y)
+        for (uint32_t x = 0; x < kBlendedSize.width; ++x)
+            for (int i = 0; i < kBlendedInstants; ++i) {
+                const double time = (i + 0.5) / kBlendedInstants;
                 const float opacity = hasPane ? paneAt(x, y, time) : 0.0f;
                 for (int channel = 0; channel < 4; ++channel) {
                     const float pane = channel < 3 ? kPane[channel] : 1.0f;
                     const float behind = colorAt(x, y, time)[channel];
-                    truth.pixels[4 * (size_t{y} * kSize.width + x) + size_t(channel)] +=
-                        (opacity * pane + (1.0f - opacity) * behind) / kInstants;
+                    truth.pixels[4 * (size_t{y} * kBlendedSize.width + x) + size_t(channel)] +=
+                        (opacity * pane + (1.0f - opacity) * behind) / kBlendedInstants;
                 }
             }
     return truth;
@@ -191,22 +191,25 @@ class EmbeddedBlended : public test::EmbeddedTest {
         std::vector<uint64_t> color;
         std::vector<vec4> motionDepth;
         std::vector<uint32_t> ids;
-        for (uint32_t y = 0; y < kSize.height; ++y)
-            for (uint32_t x = 0; x < kSize.width; ++x) {
+        for (uint32_t y = 0; y < kBlendedSize.height; ++y)
+            for (uint32_t x = 0; x < kBlendedSize.width; ++x) {
                 const bool square = isSquare(x, y, rasterTime);
                 color.push_back(test::packHalf(colorAt(x, y, rasterTime)));
                 motionDepth.emplace_back(square ? 36.0f : 0.0f, 0.0f, square ? 5.0f : 10.0f, 0.0f);
                 ids.push_back(square ? 1 : 0);
             }
         Raster raster;
-        raster.color =
-            &makeTexels(VK_FORMAT_R16G16B16A16_SFLOAT, kSize, color, VK_IMAGE_USAGE_STORAGE_BIT);
-        raster.motionDepth = &makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kSize, motionDepth);
-        raster.ids = &makeTexels(VK_FORMAT_R32_UINT, kSize, ids);
+        raster.color = &makeTexels(
+            VK_FORMAT_R16G16B16A16_SFLOAT, kBlendedSize, color, VK_IMAGE_USAGE_STORAGE_BIT
+        );
+        raster.motionDepth = &makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kBlendedSize, motionDepth);
+        raster.ids = &makeTexels(VK_FORMAT_R32_UINT, kBlendedSize, ids);
         // A metre is a pixel wide, from the left border.
         const glm::dmat4 lens = glm::translate(
-            math::clipFromViewOrthographic(kSize.width / 2.0, kSize.height / 2.0, 0.1, 100.0),
-            glm::dvec3(kSize.width / -2.0, 0.0, 0.0)
+            math::clipFromViewOrthographic(
+                kBlendedSize.width / 2.0, kBlendedSize.height / 2.0, 0.1, 100.0
+            ),
+            glm::dvec3(kBlendedSize.width / -2.0, 0.0, 0.0)
         );
         for (const double time : {0.0, 0.5, 1.0}) {
             const double left = squareAt(rasterTime - kRasterTime + time);
@@ -222,8 +225,8 @@ class EmbeddedBlended : public test::EmbeddedTest {
 
     static HostInputs describe(const Raster& raster) {
         HostInputs inputs;
-        inputs.width = kSize.width;
-        inputs.height = kSize.height;
+        inputs.width = kBlendedSize.width;
+        inputs.height = kBlendedSize.height;
         inputs.color = raster.color->describe();
         inputs.motionDepth = raster.motionDepth->describe();
         inputs.entityId = raster.ids->describe();
@@ -242,18 +245,19 @@ class EmbeddedBlended : public test::EmbeddedTest {
 
     image::Image draw(const HostInputs& inputs, const char* method = "resolved") {
         if (inputs.motion.followsLast) {
-            (void)EmbeddedTest::draw(describe(mBefore), test::settingsOf(method, kInstants));
+            (void)EmbeddedTest::draw(describe(mBefore), test::settingsOf(method, kBlendedInstants));
             EXPECT_TRUE(mBlur->markDone(0).ok());
         }
         mPane->tasks.clear();
-        image::Image picture = EmbeddedTest::draw(inputs, test::settingsOf(method, kInstants));
+        image::Image picture =
+            EmbeddedTest::draw(inputs, test::settingsOf(method, kBlendedInstants));
         EXPECT_TRUE(mBlur->markDone(0).ok());
         return picture;
     }
 
     /// Of one texel everywhere.
     HostImage makeLayer(const vec4& texel, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT) {
-        return makeTexels(format, kSize, std::vector<vec4>(kPixels, texel)).describe();
+        return makeTexels(format, kBlendedSize, std::vector<vec4>(kPixels, texel)).describe();
     }
 
     /// Sentences of the checker for the layer.
@@ -286,7 +290,7 @@ class EmbeddedBlended : public test::EmbeddedTest {
             ASSERT_EQ(glm::unpackHalf4x16(texels[i]).x, picture.pixels[4 * i]) << i;
     }
 
-    static constexpr size_t kPixels = size_t{kSize.width} * kSize.height;
+    static constexpr size_t kPixels = size_t{kBlendedSize.width} * kBlendedSize.height;
 
     std::optional<PaneHost> mPane;
     Raster mRaster;
@@ -300,8 +304,8 @@ TEST_F(EmbeddedBlended, LayersDrawnPerInstantAreHiddenAndTransparentAtEachInstan
     const double parts = image::computePsnr(draw(inputs), truth);
     ASSERT_EQ(mPane->tasks.size(), 4u);
     EXPECT_EQ(mPane->tasks[0].instantCount, 15u);
-    EXPECT_EQ(mPane->times.front(), 0.5 / kInstants);
-    EXPECT_EQ(mPane->times.back(), 14.5 / kInstants);
+    EXPECT_EQ(mPane->times.front(), 0.5 / kBlendedInstants);
+    EXPECT_EQ(mPane->times.back(), 14.5 / kBlendedInstants);
     uint32_t next = 0;
     for (const BlendedTask& task : mPane->tasks) {
         EXPECT_EQ(task.firstInstant, next);
@@ -325,12 +329,12 @@ TEST_F(EmbeddedBlended, BothInterfacesAndAlphaOpacityGiveTheSamePicture) {
     HostInputs inputs = describeDrawn();
     const image::Image picture = draw(inputs);
     const test::BlurOfC c(device());
-    const test::Picture output(device(), {kSize.width, kSize.height});
+    const test::Picture output(device(), {kBlendedSize.width, kBlendedSize.height});
     inputs.output = output.output();
     const test::InputsForC reported(inputs);
     ShutterBlurSettings settings = shutterBlurDefaultSettings();
     settings.method = "resolved";
-    settings.sampleCount = kInstants;
+    settings.sampleCount = kBlendedInstants;
     submit([&](VkCommandBuffer commands) {
         for (const HostTexels& texels : mTexels)
             texels.record(commands);
@@ -355,8 +359,8 @@ TEST_F(EmbeddedBlended, ALayerDrawnInAnAreaChangesNothingOutside) {
         const image::Image picture = draw(inputs);
         EXPECT_EQ(mPane->tasks[0].area.extent.width, area.extent.width);
         for (uint32_t i = 0; i < kPixels; ++i) {
-            const uint32_t x = i % kSize.width - uint32_t(area.offset.x);
-            const uint32_t y = i / kSize.width - uint32_t(area.offset.y);
+            const uint32_t x = i % kBlendedSize.width - uint32_t(area.offset.x);
+            const uint32_t y = i / kBlendedSize.width - uint32_t(area.offset.y);
             const bool isInside = x < area.extent.width && y < area.extent.height;
             const image::Image& same = isInside ? whole : without;
             for (size_t channel = 0; channel < 4; ++channel)
@@ -384,10 +388,11 @@ TEST_F(EmbeddedBlended, TheLayerIsDrawnOverTheSharpPictureWithBlurOff) {
     HostInputs inputs = describe();
     inputs.isOff = true;
     inputs.blended = makeLayer(layer);
-    image::Image expected(kSize.width, kSize.height, 4);
+    image::Image expected(kBlendedSize.width, kBlendedSize.height, 4);
     for (uint32_t i = 0; i < kPixels; ++i) {
-        const vec4 color =
-            glm::unpackHalf4x16(test::packHalf(colorAt(i % kSize.width, i / kSize.width, 0.5)));
+        const vec4 color = glm::unpackHalf4x16(
+            test::packHalf(colorAt(i % kBlendedSize.width, i / kBlendedSize.width, 0.5))
+        );
         const vec4 sum = layer + 0.5f * color;
         for (size_t channel = 0; channel < 4; ++channel)
             expected.pixels[4 * i + channel] = channel < 3 ? sum[int(channel)] : 1.0f;
@@ -410,21 +415,21 @@ TEST_F(EmbeddedBlended, TheLayerIsDrawnOverTheSharpPictureWithBlurOff) {
 }
 
 TEST_F(EmbeddedBlended, PartOfALargerImageGivesTheSamePicture) {
-    constexpr VkExtent2D kLarger{kSize.width + 9, kSize.height + 5};
+    constexpr VkExtent2D kLarger{kBlendedSize.width + 9, kBlendedSize.height + 5};
     std::vector<vec4> own(kPixels);
     std::vector<vec4> larger(size_t{kLarger.width} * kLarger.height, vec4(7.0f));
-    for (uint32_t y = 0; y < kSize.height; ++y)
-        for (uint32_t x = 0; x < kSize.width; ++x) {
+    for (uint32_t y = 0; y < kBlendedSize.height; ++y)
+        for (uint32_t x = 0; x < kBlendedSize.width; ++x) {
             const vec4 texel(float(x) / 128.0f, 0.25f, float(y) / 64.0f, float((x + y) % 3) / 2.0f);
-            own[size_t{y} * kSize.width + x] = texel;
+            own[size_t{y} * kBlendedSize.width + x] = texel;
             larger[size_t{y + 3} * kLarger.width + x + 6] = texel;
         }
     HostInputs inputs = describe();
-    inputs.blended = makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kSize, own).describe();
+    inputs.blended = makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kBlendedSize, own).describe();
     const image::Image picture = draw(inputs, "gather");
     EXPECT_FALSE(test::sameBits(picture, draw(describe(), "gather")));
     inputs.blended = makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kLarger, larger)
-                         .describe({{6, 3}, {kSize.width, kSize.height}});
+                         .describe({{6, 3}, {kBlendedSize.width, kBlendedSize.height}});
     EXPECT_TRUE(test::sameBits(draw(inputs, "gather"), picture));
 }
 
@@ -462,7 +467,7 @@ TEST_F(EmbeddedBlended, TheCheckerNamesWhatIsNoLightAndNoOpacity) {
 TEST_F(EmbeddedBlended, InvalidInputsAreRefused) {
     const auto refuse = [&](const char* part, const auto& change) {
         HostInputs inputs = describeDrawn();
-        const test::Picture picture(device(), {kSize.width, kSize.height});
+        const test::Picture picture(device(), {kBlendedSize.width, kBlendedSize.height});
         inputs.output = picture.output();
         change(inputs);
         submit([&](VkCommandBuffer commands) {

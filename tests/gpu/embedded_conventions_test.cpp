@@ -28,27 +28,27 @@ using motion_blur::MotionBlurSettings;
 using test::HostTexels;
 using test::packHalf;
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 64;
-constexpr VkExtent2D kExtent{kWidth, kHeight};
+constexpr uint32_t kConventionWidth = 96;
+constexpr uint32_t kConventionHeight = 64;
+constexpr VkExtent2D kConventionExtent{kConventionWidth, kConventionHeight};
 constexpr float kNear = 0.125f;
-constexpr size_t kPixels = size_t{kWidth} * kHeight;
+constexpr size_t kConventionPixels = size_t{kConventionWidth} * kConventionHeight;
 
 /// What a host drew, in main memory: rectangles before a wall, and sky above it.
 struct Drawn {
-    std::vector<glm::vec4> color{kPixels};
+    std::vector<glm::vec4> color{kConventionPixels};
     std::vector<glm::vec2> motion{
-        kPixels}; ///< pixels over the exposure; quarters, halves hold them
-    std::vector<float> metres = std::vector<float>(kPixels);
-    std::vector<uint32_t> ids = std::vector<uint32_t>(kPixels);
+        kConventionPixels}; ///< pixels over the exposure; quarters, halves hold them
+    std::vector<float> metres = std::vector<float>(kConventionPixels);
+    std::vector<uint32_t> ids = std::vector<uint32_t>(kConventionPixels);
 };
 
 Drawn paint() {
     Drawn drawn;
     std::mt19937 random(5);
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            const size_t at = size_t{y} * kWidth + x;
+    for (uint32_t y = 0; y < kConventionHeight; ++y)
+        for (uint32_t x = 0; x < kConventionWidth; ++x) {
+            const size_t at = size_t{y} * kConventionWidth + x;
             // Sixteenths: half floats, and the packed format's 5 bits, hold them.
             const auto noise = float(random() % 16) / 16.0f;
             drawn.color[at] = {0.5f, 0.25f + noise / 2.0f, noise, 1.0f};
@@ -87,10 +87,10 @@ std::vector<T> surround(
     const std::vector<T>& inner, const T& outside, const VkExtent2D& whole, const VkOffset2D& at
 ) {
     std::vector<T> texels(size_t{whole.width} * whole.height, outside);
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x)
+    for (uint32_t y = 0; y < kConventionHeight; ++y)
+        for (uint32_t x = 0; x < kConventionWidth; ++x)
             texels[size_t{y + uint32_t(at.y)} * whole.width + x + uint32_t(at.x)] =
-                inner[size_t{y} * kWidth + x];
+                inner[size_t{y} * kConventionWidth + x];
     return texels;
 }
 
@@ -102,7 +102,8 @@ class EmbeddedConventions : public test::EmbeddedTest {
     }
 
     template <class T>
-    HostImage make(VkFormat format, const std::vector<T>& values, VkExtent2D extent = kExtent) {
+    HostImage
+    make(VkFormat format, const std::vector<T>& values, VkExtent2D extent = kConventionExtent) {
         return makeTexels(format, extent, values).describe();
     }
 
@@ -132,15 +133,15 @@ class EmbeddedConventions : public test::EmbeddedTest {
 
     HostImage ownMotionDepth() {
         std::vector<glm::vec4> texels;
-        for (size_t i = 0; i < kPixels; ++i)
+        for (size_t i = 0; i < kConventionPixels; ++i)
             texels.emplace_back(drawn.motion[i], drawn.metres[i], 0.0f);
         return make(VK_FORMAT_R32G32B32A32_SFLOAT, texels);
     }
 
     HostInputs ownInputs() {
         HostInputs inputs;
-        inputs.width = kWidth;
-        inputs.height = kHeight;
+        inputs.width = kConventionWidth;
+        inputs.height = kConventionHeight;
         inputs.color = color();
         inputs.motionDepth = ownMotionDepth();
         return inputs;
@@ -206,13 +207,14 @@ class EmbeddedConventions : public test::EmbeddedTest {
         for (size_t i = 0; i < texels.size(); ++i) {
             const auto x = uint32_t(i % width) - uint32_t(area.offset.x);
             const auto y = uint32_t(i / width) - uint32_t(area.offset.y);
-            if (x >= kWidth || y >= kHeight) {
+            if (x >= kConventionWidth || y >= kConventionHeight) {
                 wrong += texels[i] != was[i];
                 continue;
             }
             const glm::vec4 value = glm::unpackHalf4x16(texels[i]);
-            wrong +=
-                std::memcmp(&value, &own.pixels[4 * (size_t{y} * kWidth + x)], sizeof(value)) != 0;
+            wrong += std::memcmp(
+                         &value, &own.pixels[4 * (size_t{y} * kConventionWidth + x)], sizeof(value)
+                     ) != 0;
         }
         EXPECT_EQ(wrong, 0u);
     }
@@ -248,8 +250,10 @@ TEST_F(EmbeddedConventions, EachFormatOfVectorsAndEachSignIsTheSamePicture) {
 
     for (const Case& one : std::vector<Case>{
              {"pixels, before to now", {1.0f, 1.0f}},
-             {"texture coordinates, now to before", {-float(kWidth), -float(kHeight)}},
-             {"normalised coordinates, y up", {-0.5f * kWidth, 0.5f * kHeight}}}) {
+             {"texture coordinates, now to before",
+              {-float(kConventionWidth), -float(kConventionHeight)}},
+             {"normalised coordinates, y up",
+              {-0.5f * kConventionWidth, 0.5f * kConventionHeight}}}) {
         SCOPED_TRACE(one.name);
         const auto vectors = convert<glm::vec2>(drawn.motion, [&](const glm::vec2& motion) {
             return motion / one.pixelsPerUnit;
@@ -297,7 +301,7 @@ TEST_F(EmbeddedConventions, EachFormatOfDepthIsTheSamePicture) {
 
 TEST_F(EmbeddedConventions, PartsOfLargerImagesGiveTheSameBitsAndTouchNothingElse) {
     const image::Image own = draw(ownInputs());
-    constexpr VkExtent2D kWhole{kWidth + 37, kHeight + 21};
+    constexpr VkExtent2D kWhole{kConventionWidth + 37, kConventionHeight + 21};
     constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
     const auto halves = convert<uint64_t>(drawn.color, packHalf);
     const uint64_t bright = packHalf(glm::vec4(900.0f));
@@ -308,11 +312,11 @@ TEST_F(EmbeddedConventions, PartsOfLargerImagesGiveTheSameBitsAndTouchNothingEls
         convention.vectors.image =
             makePart(VK_FORMAT_R32G32_SFLOAT, drawn.motion, far, kWhole, area);
         convention.depth.image = makePart(VK_FORMAT_R32_SFLOAT, drawn.metres, 0.5f, kWhole, area);
-        inputs.color = makePart(kHalf, halves, bright, kWhole, {area.offset, kExtent});
+        inputs.color = makePart(kHalf, halves, bright, kWhole, {area.offset, kConventionExtent});
         EXPECT_TRUE(test::sameBits(draw(inputs), own));
     };
     useArea({{37, 21}, {0, 0}}); // the rest of the extent
-    constexpr VkRect2D kArea{{29, 13}, kExtent};
+    constexpr VkRect2D kArea{{29, 13}, kConventionExtent};
     useArea(kArea);
 
     const std::vector<uint64_t> blank(size_t{kWhole.width} * kWhole.height, bright);
@@ -336,11 +340,12 @@ TEST_F(EmbeddedConventions, ALayerIsBlurredLikeAnImageOfItsOwnAndTheOthersStay) 
     }();
     mTexels.clear();
     const HostInputs alone = ownInputs(); // whose texels are copied into layers
-    const test::TwoLayers color(device(), alone.color.format, kExtent);
-    const test::TwoLayers motion(device(), alone.motionDepth.format, kExtent);
-    const test::TwoLayers output(device(), alone.color.format, kExtent);
+    const test::TwoLayers color(device(), alone.color.format, kConventionExtent);
+    const test::TwoLayers motion(device(), alone.motionDepth.format, kConventionExtent);
+    const test::TwoLayers output(device(), alone.color.format, kConventionExtent);
     const std::array<test::Picture, 2> made{
-        test::Picture(device(), {kWidth, kHeight}), test::Picture(device(), {kWidth, kHeight})};
+        test::Picture(device(), {kConventionWidth, kConventionHeight}),
+        test::Picture(device(), {kConventionWidth, kConventionHeight})};
     submit([&](VkCommandBuffer commands) {
         color.copyFrom(commands, mTexels[0].staging(), 1);
         motion.copyFrom(commands, mTexels[1].staging(), 1);
@@ -358,7 +363,7 @@ TEST_F(EmbeddedConventions, ALayerIsBlurredLikeAnImageOfItsOwnAndTheOthersStay) 
         EXPECT_TRUE(done.ok()) << done.error().message;
         for (uint32_t layer = 0; layer < 2; ++layer) {
             const VkImage to = made[layer].handle();
-            const VkImageCopy region = test::wholeCopy(kWidth, kHeight, layer);
+            const VkImageCopy region = test::wholeCopy(kConventionWidth, kConventionHeight, layer);
             test::moveOn(commands, to, test::kNothing, test::kWritten);
             vkCmdCopyImage(
                 commands, output.image, test::kCopied.layout, to, test::kWritten.layout, 1, &region
@@ -374,12 +379,15 @@ TEST_F(EmbeddedConventions, ALayerIsBlurredLikeAnImageOfItsOwnAndTheOthersStay) 
 TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
     const image::Image own = draw(ownInputs());
     HostInputs inputs = ownInputs();
-    const HostTexels& wide =
-        makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent, drawn.color, VK_IMAGE_USAGE_STORAGE_BIT);
+    const HostTexels& wide = makeTexels(
+        VK_FORMAT_R32G32B32A32_SFLOAT, kConventionExtent, drawn.color, VK_IMAGE_USAGE_STORAGE_BIT
+    );
     inputs.color = wide.describe();
     EXPECT_TRUE(test::sameBits(draw(inputs), own));
     const auto inPlace = blurInto<glm::vec4>(wide, inputs);
-    EXPECT_EQ(std::memcmp(inPlace.data(), own.pixels.data(), kPixels * sizeof(glm::vec4)), 0);
+    EXPECT_EQ(
+        std::memcmp(inPlace.data(), own.pixels.data(), kConventionPixels * sizeof(glm::vec4)), 0
+    );
 
     constexpr VkFormat kPacked = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
     if (!canUse(kPacked, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT))
@@ -387,12 +395,13 @@ TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
     const auto packed = convert<uint32_t>(drawn.color, [](const glm::vec4& value) {
         return glm::packF2x11_1x10(glm::vec3(value));
     });
-    const HostTexels& small = makeTexels(kPacked, kExtent, packed, VK_IMAGE_USAGE_STORAGE_BIT);
+    const HostTexels& small =
+        makeTexels(kPacked, kConventionExtent, packed, VK_IMAGE_USAGE_STORAGE_BIT);
     inputs.color = small.describe();
     EXPECT_TRUE(test::sameBits(draw(inputs), own));
     const auto stored = blurInto<uint32_t>(small, inputs);
     size_t wrong = 0;
-    for (size_t i = 0; i < kPixels; ++i) {
+    for (size_t i = 0; i < kConventionPixels; ++i) {
         const glm::vec3 value = glm::unpackF2x11_1x10(stored[i]);
         for (int channel = 0; channel < 3; ++channel) {
             const float wanted = own.pixels[4 * i + channel];
@@ -430,12 +439,12 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     const image::Image own = draw(ownInputs());
     std::vector<glm::vec2> vectors;
     std::vector<float> metres;
-    for (uint32_t y = 0; y < kHeight; y += 2) // all borders lie between such pixels
-        for (uint32_t x = 0; x < kWidth; x += 2) {
-            vectors.push_back(drawn.motion[size_t{y} * kWidth + x]);
-            metres.push_back(drawn.metres[size_t{y} * kWidth + x]);
+    for (uint32_t y = 0; y < kConventionHeight; y += 2) // all borders lie between such pixels
+        for (uint32_t x = 0; x < kConventionWidth; x += 2) {
+            vectors.push_back(drawn.motion[size_t{y} * kConventionWidth + x]);
+            metres.push_back(drawn.metres[size_t{y} * kConventionWidth + x]);
         }
-    constexpr VkExtent2D kHalf{kWidth / 2, kHeight / 2};
+    constexpr VkExtent2D kHalf{kConventionWidth / 2, kConventionHeight / 2};
     HostInputs inputs = conventionInputs();
     inputs.convention.vectors.image =
         makeTexels(VK_FORMAT_R32G32_SFLOAT, kHalf, vectors).describe({{0, 0}, kHalf});
@@ -449,7 +458,7 @@ TEST_F(EmbeddedConventions, OnlyTheCameraMovesWithoutVectors) {
     HostConvention& convention = inputs.convention;
     const glm::vec2 still{0.0f};
     convention.vectors.image =
-        make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still));
+        make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kConventionPixels, still));
     convention.vectors.lackCamera = true;
     const image::Image zeros = draw(inputs);
     convention.vectors = {};
@@ -476,7 +485,7 @@ TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
     HostConvention& convention = inputs.convention;
     const MotionBlurSettings settings = test::settingsOf("rosado2007");
     const image::Image own = draw(inputs, settings);
-    const std::vector<glm::vec2> wrong(kPixels, glm::vec2(3.0f, -8.0f));
+    const std::vector<glm::vec2> wrong(kConventionPixels, glm::vec2(3.0f, -8.0f));
     convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, wrong);
     EXPECT_TRUE(test::sameBits(draw(inputs, settings), own));
     convention.cameras.viewFromWorldBefore = convention.cameras.viewFromWorld;
@@ -493,16 +502,16 @@ TEST_F(EmbeddedConventions, ScalesOfTheMotionScaleTheBlur) {
     EXPECT_TRUE(test::sameBits(draw(generated), own));
     HostInputs shares = conventionInputs();
     shares.convention.scales.perPixel =
-        make(VK_FORMAT_R32_SFLOAT, std::vector<float>(kPixels, 0.5f));
+        make(VK_FORMAT_R32_SFLOAT, std::vector<float>(kConventionPixels, 0.5f));
     EXPECT_TRUE(test::sameBits(draw(shares), own));
     // A weapon of the host's, held still in the picture.
-    std::vector<uint8_t> kept(kPixels, 255);
-    for (size_t i = 0; i < kPixels; ++i)
+    std::vector<uint8_t> kept(kConventionPixels, 255);
+    for (size_t i = 0; i < kConventionPixels; ++i)
         if (drawn.ids[i] == 7)
             kept[i] = 0;
     HostInputs weapon = conventionInputs();
     weapon.convention.scales.perPixel = make(VK_FORMAT_R8_UNORM, kept);
-    for (size_t i = 0; i < kPixels; ++i)
+    for (size_t i = 0; i < kConventionPixels; ++i)
         if (drawn.ids[i] == 7)
             drawn.motion[i] = {0.0f, 0.0f};
     EXPECT_TRUE(test::sameBits(draw(weapon), draw(ownInputs())));
@@ -514,8 +523,8 @@ class EmbeddedOverlay : public EmbeddedConventions {
   protected:
     void SetUp() override {
         EmbeddedConventions::SetUp();
-        for (size_t i = 0; i < kPixels; ++i) {
-            const bool isLeft = i % kWidth < kWidth / 2;
+        for (size_t i = 0; i < kConventionPixels; ++i) {
+            const bool isLeft = i % kConventionWidth < kConventionWidth / 2;
             drawn.color[i] = {0.25f, 0.5f, 0.75f, 1.0f};
             drawn.motion[i] = {isLeft ? 12.0f : 0.0f, 0.0f};
             drawn.metres[i] = 5.0f;
@@ -544,11 +553,14 @@ class EmbeddedOverlay : public EmbeddedConventions {
     /// Which panels differ from a picture without any; kPanelCount: what no panel covers.
     static std::set<uint32_t> findChanged(const image::Image& with, const image::Image& without) {
         std::set<uint32_t> changed;
-        for (uint32_t i = 0; i < kPixels; ++i)
+        for (uint32_t i = 0; i < kConventionPixels; ++i)
             for (uint32_t channel = 0; channel < with.channels; ++channel)
                 if (with.pixels[i * with.channels + channel] !=
                     without.pixels[i * with.channels + channel])
-                    changed.insert(shader::panelAt({i % kWidth, i / kWidth}, {kWidth, kHeight}));
+                    changed.insert(shader::panelAt(
+                        {i % kConventionWidth, i / kConventionWidth},
+                        {kConventionWidth, kConventionHeight}
+                    ));
         return changed;
     }
 

@@ -25,8 +25,8 @@ using motion_blur::HostInputs;
 using motion_blur::HostMover;
 using test::HostTexels;
 
-constexpr VkExtent2D kSize{128, 48};
-constexpr int kInstants = 15;
+constexpr VkExtent2D kDeformedSize{128, 48};
+constexpr int kDeformedInstants = 15;
 constexpr uint32_t kWallRow = 0;
 constexpr uint32_t kSquareRow = 1;
 
@@ -77,18 +77,23 @@ class Raster {
     };
 
     Raster(gpu::Device& device, const Texels& texels)
-        : color(device, VK_FORMAT_R16G16B16A16_SFLOAT, kSize, test::bytesOf(texels.color)),
+        : color(device, VK_FORMAT_R16G16B16A16_SFLOAT, kDeformedSize, test::bytesOf(texels.color)),
           motionDepth(
-              device, VK_FORMAT_R32G32B32A32_SFLOAT, kSize, test::bytesOf(texels.motionDepth)
+              device,
+              VK_FORMAT_R32G32B32A32_SFLOAT,
+              kDeformedSize,
+              test::bytesOf(texels.motionDepth)
           ),
-          entityId(device, VK_FORMAT_R32_UINT, kSize, test::bytesOf(texels.ids)),
-          deformed(device, VK_FORMAT_R32G32B32A32_SFLOAT, kSize, test::bytesOf(texels.deformed)) {}
+          entityId(device, VK_FORMAT_R32_UINT, kDeformedSize, test::bytesOf(texels.ids)),
+          deformed(
+              device, VK_FORMAT_R32G32B32A32_SFLOAT, kDeformedSize, test::bytesOf(texels.deformed)
+          ) {}
 
     static Texels fill(const World& world, double time) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         Texels texels;
-        for (uint32_t y = 0; y < kSize.height; ++y)
-            for (uint32_t x = 0; x < kSize.width; ++x) {
+        for (uint32_t y = 0; y < kDeformedSize.height; ++y)
+            for (uint32_t x = 0; x < kDeformedSize.width; ++x) {
                 const uint32_t row = world.rowAt(x, y, time);
                 const double place = world.placeOf(row, time);
                 const auto toOpen = float(world.placeOf(row, 0.0) - place);
@@ -137,7 +142,7 @@ class EmbeddedDeformed : public test::EmbeddedTest {
         for (uint32_t index = 0; index < 2; ++index) {
             const Raster& raster = index == 0 ? last : now;
             gpu::Frame frame(device());
-            const test::Picture picture(device(), {kSize.width, kSize.height});
+            const test::Picture picture(device(), {kDeformedSize.width, kDeformedSize.height});
             frame.begin();
             const VkCommandBuffer commands = frame.commands();
             raster.record(commands);
@@ -148,8 +153,9 @@ class EmbeddedDeformed : public test::EmbeddedTest {
                 last.deformed.record(commands);
                 inputs.lastDeformedMotion = last.deformed.describe();
             }
-            const core::Status done =
-                blur->record(commands, index, inputs, test::settingsOf(given.method, kInstants));
+            const core::Status done = blur->record(
+                commands, index, inputs, test::settingsOf(given.method, kDeformedInstants)
+            );
             EXPECT_TRUE(done.ok()) << done.error().message;
             picture.recordReadback(commands);
             frame.submit();
@@ -162,8 +168,8 @@ class EmbeddedDeformed : public test::EmbeddedTest {
 
     HostInputs describe(const World& world, const Raster& raster, const Given& given) {
         HostInputs inputs;
-        inputs.width = kSize.width;
-        inputs.height = kSize.height;
+        inputs.width = kDeformedSize.width;
+        inputs.height = kDeformedSize.height;
         inputs.color = raster.color.describe();
         inputs.motionDepth = raster.motionDepth.describe();
         inputs.entityId = raster.entityId.describe();
@@ -173,8 +179,10 @@ class EmbeddedDeformed : public test::EmbeddedTest {
         inputs.convention.scales.exposureShare = 1.0f;
         // A metre is a pixel wide, from the left border.
         const glm::dmat4 lens = glm::translate(
-            math::clipFromViewOrthographic(kSize.width / 2.0, kSize.height / 2.0, 0.1, 100.0),
-            glm::dvec3(kSize.width / -2.0, 0.0, 0.0)
+            math::clipFromViewOrthographic(
+                kDeformedSize.width / 2.0, kDeformedSize.height / 2.0, 0.1, 100.0
+            ),
+            glm::dvec3(kDeformedSize.width / -2.0, 0.0, 0.0)
         );
         mKeys.clear();
         mMatrices.clear();
@@ -194,14 +202,14 @@ class EmbeddedDeformed : public test::EmbeddedTest {
     }
 
     static image::Image makeTruth(const World& world) {
-        image::Image truth(kSize.width, kSize.height, 4);
-        for (uint32_t y = 0; y < kSize.height; ++y)
-            for (uint32_t x = 0; x < kSize.width; ++x)
-                for (int i = 0; i < kInstants; ++i) {
-                    const vec4 color = world.colorAt(x, y, (i + 0.5) / kInstants);
+        image::Image truth(kDeformedSize.width, kDeformedSize.height, 4);
+        for (uint32_t y = 0; y < kDeformedSize.height; ++y)
+            for (uint32_t x = 0; x < kDeformedSize.width; ++x)
+                for (int i = 0; i < kDeformedInstants; ++i) {
+                    const vec4 color = world.colorAt(x, y, (i + 0.5) / kDeformedInstants);
                     for (uint32_t channel = 0; channel < 4; ++channel)
-                        truth.pixels[4 * (size_t{y} * kSize.width + x) + channel] +=
-                            color[int(channel)] / kInstants;
+                        truth.pixels[4 * (size_t{y} * kDeformedSize.width + x) + channel] +=
+                            color[int(channel)] / kDeformedInstants;
                 }
         return truth;
     }
@@ -252,7 +260,7 @@ TEST_F(EmbeddedDeformed, DeformersWithoutMotionImagesAreNoWorseThanGathered) {
 TEST_F(EmbeddedDeformed, TheLastRastersMotionAloneIsRefused) {
     const Raster raster(device(), kUncovering, 1.0);
     HostInputs inputs = describe(kUncovering, raster, {.deformed = false});
-    const test::Picture picture(device(), {kSize.width, kSize.height});
+    const test::Picture picture(device(), {kDeformedSize.width, kDeformedSize.height});
     inputs.output = picture.output();
     inputs.lastDeformedMotion = raster.deformed.describe();
     submit([&](VkCommandBuffer commands) {

@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using motion_blur::HostInputs;
 
-constexpr uint32_t kWidth = 64;
-constexpr uint32_t kHeight = 48;
-constexpr VkExtent2D kExtent{kWidth, kHeight};
-constexpr size_t kPixels = size_t{kWidth} * kHeight;
+constexpr uint32_t kDumpWidth = 64;
+constexpr uint32_t kDumpHeight = 48;
+constexpr VkExtent2D kDumpExtent{kDumpWidth, kDumpHeight};
+constexpr size_t kDumpPixels = size_t{kDumpWidth} * kDumpHeight;
 
 /// A square that moves before a wall, under a camera that turns; every frame differs.
 class EmbeddedDump : public test::EmbeddedTest {
@@ -49,7 +49,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     }
 
     template <class T> motion_blur::HostImage make(VkFormat format, const std::vector<T>& values) {
-        return makeTexels(format, kExtent, values).describe();
+        return makeTexels(format, kDumpExtent, values).describe();
     }
 
     HostInputs describe(uint32_t frame) {
@@ -57,28 +57,28 @@ class EmbeddedDump : public test::EmbeddedTest {
         std::vector<glm::vec2> vectors;
         std::vector<float> depth;
         std::vector<uint16_t> ids;
-        for (uint32_t i = 0; i < kPixels; ++i) {
-            const uint32_t x = i % kWidth;
-            const uint32_t y = i / kWidth;
+        for (uint32_t i = 0; i < kDumpPixels; ++i) {
+            const uint32_t x = i % kDumpWidth;
+            const uint32_t y = i / kDumpWidth;
             const bool isSquare = x >= 16 + 5 * frame && x < 32 + 5 * frame && y >= 12 && y < 36;
             const float wave = float((x * 7 + y * 13 + frame) % 16) / 16.0f;
             color.push_back(test::packHalf({isSquare ? 3.0f : wave, wave, 0.5f, 1.0f}));
             vectors.push_back(
-                {(isSquare ? -9.0f : -1.5f) / kWidth, (isSquare ? -2.0f : 0.0f) / kHeight}
+                {(isSquare ? -9.0f : -1.5f) / kDumpWidth, (isSquare ? -2.0f : 0.0f) / kDumpHeight}
             );
             depth.push_back(y < 6 ? 0.0f : 0.1f / (isSquare ? 2.0f : 6.0f));
             ids.push_back(y < 6 ? 0xFFFF : isSquare ? 3 : 1);
         }
         HostInputs inputs;
-        inputs.width = kWidth;
-        inputs.height = kHeight;
+        inputs.width = kDumpWidth;
+        inputs.height = kDumpHeight;
         inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, color);
         auto& convention = inputs.convention;
         if (mHasVectors)
             convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
-        convention.vectors.pixelsPerUnit = {-float(kWidth), -float(kHeight)};
+        convention.vectors.pixelsPerUnit = {-float(kDumpWidth), -float(kDumpHeight)};
         convention.depth.image = make(VK_FORMAT_D32_SFLOAT, depth);
-        const auto clip = math::clipFromViewPerspective(1.0, double(kWidth) / kHeight, 0.1);
+        const auto clip = math::clipFromViewPerspective(1.0, double(kDumpWidth) / kDumpHeight, 0.1);
         const auto viewAt = [](double time) {
             return glm::rotate(glm::dmat4(1.0), 0.03 * time, glm::dvec3(0.0, 1.0, 0.0));
         };
@@ -109,8 +109,8 @@ class EmbeddedDump : public test::EmbeddedTest {
         inputs.motion.response = mTable ? &*mTable : nullptr;
         if (mIsPacked) {
             std::vector<glm::vec4> packed;
-            for (uint32_t i = 0; i < kPixels; ++i)
-                packed.emplace_back(3.0f, 1.0f, i / kWidth < 6 ? 1.0e9f : 4.0f, 0.0f);
+            for (uint32_t i = 0; i < kDumpPixels; ++i)
+                packed.emplace_back(3.0f, 1.0f, i / kDumpWidth < 6 ? 1.0e9f : 4.0f, 0.0f);
             inputs.motionDepth = make(VK_FORMAT_R32G32B32A32_SFLOAT, packed);
         }
         return inputs;
@@ -287,14 +287,14 @@ TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     const auto shown = io::readImage(mFolder / "shown_0.exr");
     ASSERT_TRUE(shown.ok());
     // Panels lie along the top and the bottom.
-    const size_t row = size_t{kWidth} * picture.channels;
+    const size_t row = size_t{kDumpWidth} * picture.channels;
     const auto sameRow = [&](uint32_t y) {
         return std::equal(
             &picture.pixels[y * row], &picture.pixels[y * row] + row, &shown.value().pixels[y * row]
         );
     };
-    EXPECT_TRUE(sameRow(kHeight / 2));
-    EXPECT_FALSE(sameRow(kHeight / 8));
+    EXPECT_TRUE(sameRow(kDumpHeight / 2));
+    EXPECT_FALSE(sameRow(kDumpHeight / 8));
 }
 
 TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {

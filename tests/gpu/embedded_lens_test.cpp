@@ -20,8 +20,8 @@ using test::MotionDescriber;
 using test::settingsOf;
 using test::StagedFrame;
 
-constexpr uint32_t kInstants = 7;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr uint32_t kLensInstants = 7;
+constexpr double kDoubleNan = std::numeric_limits<double>::quiet_NaN();
 /// Six blades, wider than high; what is 5 m away is in focus.
 constexpr scene::CameraLens kLens{
     .fStop = 0.05,
@@ -68,7 +68,7 @@ class EmbeddedLens : public test::EmbeddedTest {
         build(mScene, moves);
         motion_blur::HostDevice described = describeHost();
         described.measures = true;
-        const auto settings = settingsOf("resolved", kInstants);
+        const auto settings = settingsOf("resolved", kLensInstants);
         mStage.emplace(device(), mScene, described, settings, settings);
         mStage->declareMotion(mDescriber);
         mStage->request.view.usesLens = true;
@@ -93,7 +93,7 @@ class EmbeddedLens : public test::EmbeddedTest {
     }
 
     test::SceneBuilder mScene;
-    MotionDescriber mDescriber{kInstants};
+    MotionDescriber mDescriber{kLensInstants};
     std::function<void(HostInputs&)> mChange;
     std::optional<BlurStage> mStage;
 };
@@ -149,7 +149,8 @@ TEST_F(EmbeddedLens, AClosedLensChangesNeitherBitsNorPasses) {
         return std::pair(drawn.output, passes);
     };
     const auto [none, passesOfNone] = drawWith({});
-    HostLens closed{.radius = 0.0, .focusDistance = kNan, .squeeze = kNan, .blades = 77};
+    HostLens closed{
+        .radius = 0.0, .focusDistance = kDoubleNan, .squeeze = kDoubleNan, .blades = 77};
     const auto [pinhole, passes] = drawWith(closed);
     EXPECT_TRUE(test::sameBits(pinhole, none));
     EXPECT_EQ(passes, passesOfNone);
@@ -181,13 +182,13 @@ TEST_F(EmbeddedLens, AnyAlphaOfTheHostsColourGivesTheSamePicture) {
             1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, 1.5, 0.1)};
         in.motion.keys = {&key, 1};
         in.motion.lens = {.radius = 0.5, .focusDistance = 5.0};
-        image::Image picture = EmbeddedTest::draw(in, settingsOf("resolved", kInstants));
+        image::Image picture = EmbeddedTest::draw(in, settingsOf("resolved", kLensInstants));
         for (size_t i = 3; i < picture.pixels.size(); i += 4)
             picture.pixels[i] = 1.0f;
         return picture;
     };
     const image::Image opaque = drawWith(1.0f);
-    for (const float alpha : {0.0f, -1.0f, -1.5f, -60000.0f, float(kNan)})
+    for (const float alpha : {0.0f, -1.0f, -1.5f, -60000.0f, float(kDoubleNan)})
         EXPECT_TRUE(test::sameBits(drawWith(alpha), opaque)) << alpha;
 }
 
@@ -195,7 +196,7 @@ TEST_F(EmbeddedLens, LensesAtTheEndsOfTheirRangeGiveFinitePictures) {
     start(true);
     for (const double radius : {1e-300, 1e-9, 1000.0})
         for (const double focus : {1e-4, 1e9}) {
-            const std::vector<double> focuses(kInstants + 1, focus);
+            const std::vector<double> focuses(kLensInstants + 1, focus);
             mChange = [&](HostInputs& inputs) {
                 inputs.motion.lens = {.radius = radius, .focusDistances = focuses};
             };

@@ -131,10 +131,10 @@ TEST_F(EmbeddedPictures, ResourcesRetiredByAResizeAreFreedWhenTheirFramesAreDone
     EXPECT_LE(mBlur->living().images, 2 * one.images);
 }
 
-constexpr uint32_t kInstants = 7;
+constexpr uint32_t kPictureInstants = 7;
 
 MotionBlurSettings resolved(InstantNoise noise = InstantNoise::Off) {
-    MotionBlurSettings settings = settingsOf("resolved", kInstants);
+    MotionBlurSettings settings = settingsOf("resolved", kPictureInstants);
     settings.instantNoise = noise;
     return settings;
 }
@@ -199,7 +199,7 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
         for (const bool isTriangle : {false, true}) {
             mStage.reset();
             mScene = Scene();
-            start(MotionDescriber(kInstants));
+            start(MotionDescriber(kPictureInstants));
             mStage->shutter.phase = phase;
             if (isTriangle)
                 mStage->giveTriangle();
@@ -216,7 +216,7 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
 TEST_F(EmbeddedInstants, AFirstFrameWithoutHistoryHasTheBitsOfThePlugin) {
     MotionBlurSettings settings = resolved();
     settings.history = false;
-    start(MotionDescriber(kInstants), settings);
+    start(MotionDescriber(kPictureInstants), settings);
     mStage->host.blurOfC = nullptr; // it has no other settings than the samples
     const StagedFrame first = draw(0);
     EXPECT_EQ(countFromLast(first), 0u);

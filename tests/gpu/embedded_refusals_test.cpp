@@ -38,8 +38,8 @@ using test::settingsOf;
 using CInputs = ShutterBlurInputs;
 using CSettings = ShutterBlurSettings;
 
-constexpr uint32_t kWidth = 40;
-constexpr uint32_t kHeight = 24;
+constexpr uint32_t kRefusedWidth = 40;
+constexpr uint32_t kRefusedHeight = 24;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -67,7 +67,7 @@ class EmbeddedRefusals : public test::EmbeddedTest {
         if (!mBlur)
             return;
         mC.emplace(device());
-        mHost.emplace(device(), kWidth, kHeight);
+        mHost.emplace(device(), kRefusedWidth, kRefusedHeight);
         inputs = makeInputs();
     }
 
@@ -91,8 +91,8 @@ class EmbeddedRefusals : public test::EmbeddedTest {
     [[nodiscard]] CInputs makeInputsOfC() const {
         const HostInputs given = makeInputs();
         CInputs made = shutterBlurDefaultInputs();
-        made.width = kWidth;
-        made.height = kHeight;
+        made.width = kRefusedWidth;
+        made.height = kRefusedHeight;
         made.color = test::convertForC(given.color);
         made.motionDepth = test::convertForC(given.motionDepth);
         made.output = test::convertForC(given.output);
@@ -185,7 +185,7 @@ TEST_F(EmbeddedRefusals, EachBadImageIsNamed) {
         in.motionDepth.extent = {64, 64};
         in.motionDepth.area.extent = {40, 24};
     });
-    refuse("color takes ", [](auto& in) { in.width = 12 * kWidth; });
+    refuse("color takes ", [](auto& in) { in.width = 12 * kRefusedWidth; });
     refuse("color.area.extent is 20 x 24", [](auto& in) { in.color.area.extent = {20, 24}; });
     refuse("output.usage lacks VK_IMAGE_USAGE_STORAGE_BIT", [](auto& in) {
         in.output.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -564,7 +564,7 @@ TEST_F(EmbeddedRefusals, NumbersThatAreNoneLeaveAFinitePicture) {
           VkClearColorValue{{kInfinity, -kInfinity, 2.0f, 0.0f}},
           VkClearColorValue{{1e30f, 1e30f, 2.0f, 0.0f}},
           VkClearColorValue{{4.0f, 0.0f, kNan, 0.0f}}}) {
-        const test::Picture output(device(), {kWidth, kHeight});
+        const test::Picture output(device(), {kRefusedWidth, kRefusedHeight});
         inputs.output = output.output();
         submit([&](VkCommandBuffer commands) {
             test::clear(commands, mHost->color, {{3.0f, 2.0f, 1.0f, 1.0f}});
@@ -668,8 +668,9 @@ TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {
     };
     mC.emplace(described);
     CInputs given = makeInputsOfC();
-    const std::vector<float> depth(size_t{kWidth} * kHeight, 2.0f);
-    const test::HostTexels& texels = makeTexels(VK_FORMAT_R32_SFLOAT, {kWidth, kHeight}, depth);
+    const std::vector<float> depth(size_t{kRefusedWidth} * kRefusedHeight, 2.0f);
+    const test::HostTexels& texels =
+        makeTexels(VK_FORMAT_R32_SFLOAT, {kRefusedWidth, kRefusedHeight}, depth);
     given.depth = test::convertForC(texels.describe());
     given.vectors = std::exchange(given.motionDepth, {});
     given.vectors.usage = given.depth.usage = 0;

@@ -15,8 +15,8 @@ using graph::PassKind;
 
 class GraphExecute : public test::GpuTest {};
 
-constexpr uint32_t kWidth = 41;
-constexpr uint32_t kHeight = 39;
+constexpr uint32_t kGraphWidth = 41;
+constexpr uint32_t kGraphHeight = 39;
 
 struct Data {
     ImageHandle source;
@@ -29,7 +29,8 @@ ImageHandle addClear(graph::Graph& graph, VkFormat format, const VkClearColorVal
             "clear",
             PassKind::Transfer,
             [&](graph::PassBuilder& builder, Data& data) {
-                const auto image = graph.createImage("cleared", {kWidth, kHeight, format});
+                const auto image =
+                    graph.createImage("cleared", {kGraphWidth, kGraphHeight, format});
                 data.target = builder.write(image, Access::TransferWrite);
             },
             [color](const Data& data, graph::PassContext& context) {
@@ -55,14 +56,15 @@ ImageHandle addScale(
     ImageHandle source,
     float scale
 ) {
-    const shader::AccumulateParams params{{kWidth, kHeight}, 1, 1.0f, scale};
+    const shader::AccumulateParams params{{kGraphWidth, kGraphHeight}, 1, 1.0f, scale};
     return graph
         .addPass<Data>(
             "scale",
             PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
-                const auto image =
-                    graph.createImage("scaled", {kWidth, kHeight, VK_FORMAT_R32G32B32A32_SFLOAT});
+                const auto image = graph.createImage(
+                    "scaled", {kGraphWidth, kGraphHeight, VK_FORMAT_R32G32B32A32_SFLOAT}
+                );
                 data.source = builder.read(source, Access::SampledCompute);
                 data.target = builder.write(image, Access::StorageWrite);
             },
@@ -71,17 +73,17 @@ ImageHandle addScale(
                 bindings.sampled(context.resources.view(data.source), device.nearestSampler())
                     .storage(context.resources.image(data.target));
                 context.frame.bind(pipeline, bindings, &params, sizeof(params));
-                vkCmdDispatch(context.commands, (kWidth + 7) / 8, (kHeight + 7) / 8, 1);
+                vkCmdDispatch(context.commands, (kGraphWidth + 7) / 8, (kGraphHeight + 7) / 8, 1);
             }
         )
         .target;
 }
 
 void expectConstant(const image::Image& picture, const math::vec3& color) {
-    ASSERT_EQ(picture.width, kWidth);
-    ASSERT_EQ(picture.height, kHeight);
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x)
+    ASSERT_EQ(picture.width, kGraphWidth);
+    ASSERT_EQ(picture.height, kGraphHeight);
+    for (uint32_t y = 0; y < kGraphHeight; ++y)
+        for (uint32_t x = 0; x < kGraphWidth; ++x)
             for (uint32_t c = 0; c < 3; ++c)
                 ASSERT_EQ(picture.at(x, y, c), color[int(c)]) << x << ", " << y;
 }
@@ -133,7 +135,7 @@ TEST_F(GraphExecute, APassThatStartsABatchIsRecordedApartAndSeesWhatCameBefore) 
                 PassKind::Transfer,
                 [&](graph::PassBuilder& builder, Data& data) {
                     const auto image = rig.graph.createImage(
-                        "copied", {kWidth, kHeight, VK_FORMAT_R32G32B32A32_SFLOAT}
+                        "copied", {kGraphWidth, kGraphHeight, VK_FORMAT_R32G32B32A32_SFLOAT}
                     );
                     data.source = builder.read(source, Access::TransferRead);
                     data.target = builder.write(image, Access::TransferWrite);
@@ -145,7 +147,7 @@ TEST_F(GraphExecute, APassThatStartsABatchIsRecordedApartAndSeesWhatCameBefore) 
                     VkImageCopy region{};
                     region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
                     region.dstSubresource = region.srcSubresource;
-                    region.extent = {kWidth, kHeight, 1};
+                    region.extent = {kGraphWidth, kGraphHeight, 1};
                     vkCmdCopyImage(
                         context.commands,
                         context.resources.image(data.source).handle(),
@@ -169,7 +171,7 @@ TEST_F(GraphExecute, APassThatStartsABatchIsRecordedApartAndSeesWhatCameBefore) 
     EXPECT_NE(after, VkCommandBuffer(VK_NULL_HANDLE));
     EXPECT_NE(before, after);
     const image::Image seen = rig.take(ticket);
-    EXPECT_EQ(seen.at(kWidth - 1, kHeight - 1, 0), 0.25f);
+    EXPECT_EQ(seen.at(kGraphWidth - 1, kGraphHeight - 1, 0), 0.25f);
     EXPECT_EQ(seen.at(0, 0, 2), 0.75f);
 }
 

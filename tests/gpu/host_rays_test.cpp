@@ -32,9 +32,9 @@ using test::BlurStage;
 using test::settingsOf;
 using test::StagedFrame;
 
-constexpr math::uvec2 kSize = test::kStageSize;
-constexpr uint32_t kInstants = 7;
-constexpr double kYFov = 1.0; ///< radians
+constexpr math::uvec2 kRaySize = test::kStageSize;
+constexpr uint32_t kRayInstants = 7;
+constexpr double kRayYFov = 1.0; ///< radians
 
 /// Rays of the host's: a compute shader with the host's tables of its scene. The engine's own
 /// reveal, so that the picture differs from the engine's.
@@ -68,7 +68,7 @@ class RevealHost {
 
   private:
     gpu::Image adopt(VkImage image, VkFormat format, VkImageUsageFlags usage) {
-        return gpu::Image::adopt(mDevice, "host's", image, {kSize.x, kSize.y, format, usage});
+        return gpu::Image::adopt(mDevice, "host's", image, {kRaySize.x, kRaySize.y, format, usage});
     }
 
     void record(
@@ -78,7 +78,7 @@ class RevealHost {
     ) {
         ++calls;
         motion_blur::PassParams params =
-            motion_blur::resolve(settingsOf("hybrid"), kSize.x, kSize.y, inputs.rasterTime);
+            motion_blur::resolve(settingsOf("hybrid"), kRaySize.x, kRaySize.y, inputs.rasterTime);
         params.response = gpu::splitAddress(inputs.response);
         auto own = params.getMethod<shader::HybridParams>();
         own.frame = gpu::splitAddress(rays.frameConstants);
@@ -174,7 +174,7 @@ class OwnRays : public test::EmbeddedTest {
             return;
         if (!device().hasRayQuery())
             GTEST_SKIP() << "the device traces no rays in compute shaders";
-        mScene.setPerspective(kYFov);
+        mScene.setPerspective(kRayYFov);
         const auto wall = mScene.addTextured(mScene.addWaveTexture(), true);
         const auto front = mScene.addTextured(mScene.addWaveTexture(32), true);
         mScene.add(test::makeQuad(12.0, 8.0, wall), {.position = {0.0, 0.0, -6.0}});
@@ -193,7 +193,7 @@ class OwnRays : public test::EmbeddedTest {
         described.measures = true;
         BlurStage stage(device(), mScene, described, hosts, plugins);
         SampleHost rays(device(), stage.renderer.scene().textureLayout());
-        test::MotionDescriber describer(kInstants);
+        test::MotionDescriber describer(kRayInstants);
         stage.declareMotion(describer);
         stage.shutter.exposureSeconds = 0.25;
         const auto* lens = mScene.world.registry.find<scene::CameraLens>(mScene.camera);
@@ -209,7 +209,7 @@ class OwnRays : public test::EmbeddedTest {
             };
             if (lens)
                 inputs.motion.lens = {
-                    .radius = scene::computeLensRadius(*lens, kYFov),
+                    .radius = scene::computeLensRadius(*lens, kRayYFov),
                     .focusDistance = lens->focusDistance};
         };
         StagedFrame drawn = stage.draw();
@@ -221,7 +221,7 @@ class OwnRays : public test::EmbeddedTest {
     }
 
     static MotionBlurSettings adaptive(float raysPerPixel) {
-        MotionBlurSettings settings = settingsOf("adaptive", kInstants);
+        MotionBlurSettings settings = settingsOf("adaptive", kRayInstants);
         settings.raysPerPixel = raysPerPixel;
         settings.history = false; // of a single frame the host has none
         return settings;
@@ -258,7 +258,7 @@ TEST_F(OwnRays, RevealsOfTheHostGiveTheBitsOfOursAndAreInDumps) {
 }
 
 TEST_F(OwnRays, SamplesOfTheHostGiveTheBitsOfOurs) {
-    const MotionBlurSettings all = adaptive(float(kInstants));
+    const MotionBlurSettings all = adaptive(float(kRayInstants));
     const StagedFrame drawn = drawSamples(all, all);
     const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
     EXPECT_GT(traced, 100u);
@@ -270,9 +270,9 @@ TEST_F(OwnRays, SamplesOfTheHostThroughALensAreOurs) {
     mScene.world.registry.add(
         mScene.camera, scene::CameraLens{.fStop = 0.05, .focusDistance = 5.0}
     );
-    MotionBlurSettings resolved = settingsOf("resolved", kInstants);
+    MotionBlurSettings resolved = settingsOf("resolved", kRayInstants);
     resolved.history = false;
-    const MotionBlurSettings all = adaptive(float(kInstants));
+    const MotionBlurSettings all = adaptive(float(kRayInstants));
     const image::Image lookedUp = drawSamples(resolved, all, false).result.color;
     const StagedFrame drawn = drawSamples(all, all);
     const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
@@ -286,7 +286,7 @@ TEST_F(OwnRays, SamplesOfTheHostThroughALensAreOurs) {
 TEST_F(OwnRays, AShortListIsNeverExceededAndHoldsTheSamplesThatWeTrace) {
     const MotionBlurSettings few = adaptive(0.05f);
     const StagedFrame drawn = drawSamples(few, few);
-    const auto limit = uint64_t(0.05 * kSize.x * kSize.y);
+    const auto limit = uint64_t(0.05 * kRaySize.x * kRaySize.y);
     EXPECT_LE(mCounters.at("rays traced"), limit);
     EXPECT_GT(mCounters.at("rays traced"), limit / 2);
     // Which samples are traced is left to chance: a list is full where the engine goes on.
@@ -294,8 +294,8 @@ TEST_F(OwnRays, AShortListIsNeverExceededAndHoldsTheSamplesThatWeTrace) {
 }
 
 TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
-    MotionBlurSettings hosts = adaptive(float(kInstants));
-    MotionBlurSettings plugins = settingsOf("resolved", kInstants);
+    MotionBlurSettings hosts = adaptive(float(kRayInstants));
+    MotionBlurSettings plugins = settingsOf("resolved", kRayInstants);
     plugins.history = false;
     hosts.uniformMotionPx = plugins.uniformMotionPx = 0.0f; // each pixel searches individually
     const StagedFrame drawn = drawSamples(plugins, hosts, false);
@@ -303,7 +303,7 @@ TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
     EXPECT_TRUE(test::sameBits(drawn.output, drawn.result.color));
 }
 
-constexpr uint32_t kRows = 3; // the wall's is the last
+constexpr uint32_t kRayRows = 3; // the wall's is the last
 
 class EmbeddedIds : public test::EmbeddedTest {
   protected:
@@ -326,7 +326,7 @@ class EmbeddedIds : public test::EmbeddedTest {
         std::vector<gpu::Buffer> tables; // of the frame
         stage.host.changeRays = [&](const render::PostContext& context,
                                     motion_blur::HostRays& rays) {
-            EXPECT_EQ(context.frame.entities.size(), kRows);
+            EXPECT_EQ(context.frame.entities.size(), kRayRows);
             std::vector<shader::EntityRow> rows = context.frame.entities;
             for (uint32_t i = rowCount; i < rows.size(); ++i)
                 std::memset(&rows[i], 0xFF, sizeof(rows[i]));
@@ -355,16 +355,16 @@ TEST_F(EmbeddedIds, NothingIsRevealedWithoutRows) {
     MotionBlurSettings revealsNothing = settingsOf("hybrid");
     revealsNothing.revealTraversal = motion_blur::RevealTraversal::Stepping;
     revealsNothing.recursionLimit = 1;
-    const image::Image kept = draw(kRows, revealsNothing);
-    EXPECT_FALSE(test::sameBits(draw(kRows), kept)) << "rays reveal something";
+    const image::Image kept = draw(kRayRows, revealsNothing);
+    EXPECT_FALSE(test::sameBits(draw(kRayRows), kept)) << "rays reveal something";
     EXPECT_TRUE(test::sameBits(draw(0), kept));
 }
 
 TEST_F(EmbeddedIds, AHitEntityMayHaveNoRow) {
     // Rays behind the movers meet the wall.
-    const image::Image drawn = draw(kRows - 1);
+    const image::Image drawn = draw(kRayRows - 1);
     EXPECT_TRUE(test::allFinite(drawn));
-    EXPECT_FALSE(test::sameBits(drawn, draw(kRows)));
+    EXPECT_FALSE(test::sameBits(drawn, draw(kRayRows)));
 }
 
 } // namespace

@@ -95,13 +95,13 @@ TEST_F(Pipelines, OnePipelineServesAllTapCountsWithoutVariants) {
 
 // A pipeline for certain taps draws the same as the general one.
 
-constexpr uint32_t kWidth = 120;
-constexpr uint32_t kHeight = 72;
+constexpr uint32_t kDrawnWidth = 120;
+constexpr uint32_t kDrawnHeight = 72;
 
 /// Left a wall that turns evenly, right bars that pass each other.
 Image makeBars() {
-    return test::makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
-        const bool bar = x > kWidth / 2 && (x / 9) % 2 == 0;
+    return test::makeMotion(kDrawnWidth, kDrawnHeight, [](uint32_t x, uint32_t) {
+        const bool bar = x > kDrawnWidth / 2 && (x / 9) % 2 == 0;
         return bar ? math::vec3(-11.0f, 4.0f, 2.0f) : math::vec3(17.0f, 1.0f, 5.0f);
     });
 }
@@ -111,14 +111,14 @@ Image gather(gpu::Device& device, TapVariants variants, uint32_t taps, VkDeviceA
     settings.method = &motion_blur::getMethod("gather");
     settings.tileSizePx = 20;
     settings.sampleCount = taps;
-    PassParams params = motion_blur::resolve(settings, kWidth, kHeight, 0.5);
+    PassParams params = motion_blur::resolve(settings, kDrawnWidth, kDrawnHeight, 0.5);
     params.response = gpu::splitAddress(response);
     const motion_blur::TileMotion tileMotion(device);
     const motion_blur::BlockSorter sorter(device);
     const motion_blur::Gather filter(device, variants);
     test::GraphRig rig(device);
     const auto motion = rig.upload(makeBars());
-    const auto color = rig.uploadColor(test::makeNoise(kWidth, kHeight));
+    const auto color = rig.uploadColor(test::makeNoise(kDrawnWidth, kDrawnHeight));
     const auto tiles = tileMotion.add(rig.graph, motion, params);
     const auto blocks = sorter.add(rig.graph, tiles, params, false);
     const auto target = rig.graph.createImage("blurred", rig.graph.describeImage(color));

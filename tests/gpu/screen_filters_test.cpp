@@ -32,25 +32,25 @@ using test::makeMotion;
 
 class ScreenFilters : public test::GpuTest {};
 
-constexpr uint32_t kWidth = 48;
-constexpr uint32_t kHeight = 32;
+constexpr uint32_t kFilteredWidth = 48;
+constexpr uint32_t kFilteredHeight = 32;
 constexpr double kSoftExtent = 0.03;
 /// The longest motion; taps along it stay off the borders between texels.
 const dvec2 kDominant(11.3, 4.7);
 
 struct Scene {
-    Image color{kWidth, kHeight, 4};
-    Image motionDepth{kWidth, kHeight, 4};
+    Image color{kFilteredWidth, kFilteredHeight, 4};
+    Image motionDepth{kFilteredWidth, kFilteredHeight, 4};
 };
 
 /// Random colours that half floats hold; motions shorter than the dominant one, a third of them
 /// none, at two depths.
-Scene makeScene() {
+Scene makeFilterScene() {
     Scene scene;
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
+    for (uint32_t y = 0; y < kFilteredHeight; ++y)
+        for (uint32_t x = 0; x < kFilteredWidth; ++x) {
             for (uint32_t c = 0; c < 3; ++c)
                 scene.color.at(x, y, c) = image::roundToHalf(unit(random));
             scene.color.at(x, y, 3) = 1.0f;
@@ -97,8 +97,8 @@ struct Texel {
 };
 
 Texel read(const Scene& scene, const dvec2& at) {
-    const auto x = uint32_t(std::clamp(std::floor(at.x), 0.0, double(kWidth - 1)));
-    const auto y = uint32_t(std::clamp(std::floor(at.y), 0.0, double(kHeight - 1)));
+    const auto x = uint32_t(std::clamp(std::floor(at.x), 0.0, double(kFilteredWidth - 1)));
+    const auto y = uint32_t(std::clamp(std::floor(at.y), 0.0, double(kFilteredHeight - 1)));
     const auto value = [&](const Image& image, uint32_t c) { return double(image.at(x, y, c)); };
     return {
         {value(scene.color, 0), value(scene.color, 1), value(scene.color, 2)},
@@ -203,15 +203,15 @@ using Filter = dvec3 (*)(const Scene&, const dvec2&);
 /// pixel may differ: one in 200.
 void expectFilter(const Scene& scene, const Image& picture, Filter filter) {
     uint32_t off = 0;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
+    for (uint32_t y = 0; y < kFilteredHeight; ++y)
+        for (uint32_t x = 0; x < kFilteredWidth; ++x) {
             const dvec3 expected = filter(scene, {x + 0.5, y + 0.5});
             double difference = 0.0;
             for (uint32_t c = 0; c < 3; ++c)
                 difference = std::max(difference, std::abs(picture.at(x, y, c) - expected[int(c)]));
             off += difference > 1.5e-3;
         }
-    EXPECT_LE(off, kWidth * kHeight / 200);
+    EXPECT_LE(off, kFilteredWidth * kFilteredHeight / 200);
     EXPECT_GT(
         test::computeMaxDifferenceWhere(picture, scene.color, [](auto, auto) { return true; }), 0.1
     ) << "it blurs";
@@ -224,7 +224,7 @@ TEST_F(ScreenFilters, EachIsThePublishedOneInACentredExposure) {
         Filter filter;
     };
 
-    const Scene scene = makeScene();
+    const Scene scene = makeFilterScene();
     for (const Case& one :
          {Case{"mcguire2012", 0, filterMcGuire},
           {"guertin2014", 15, filterGuertin},
@@ -241,18 +241,18 @@ TEST_F(ScreenFilters, EachIsThePublishedOneInACentredExposure) {
 TEST_F(ScreenFilters, OwnVelocityIsTheMeanAlongThePixelsMotionInEveryPhase) {
     // A ramp to the right, read at nearest texels: the mean of the taps' places.
     Scene scene;
-    scene.color = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+    scene.color = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t x, uint32_t) {
         return vec3(0.0f, float(x) / 64.0f, 0.0f);
     });
-    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t, uint32_t y) {
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t, uint32_t y) {
         return vec3(y < 16 ? 8.0f : 0.4f, 0.0f, 3.0f); // below half a pixel: still
     });
     MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
     settings.sampleCount = 16;
     for (const double share : {0.0, 0.5, 1.0}) {
         const Image picture = blur(device(), scene, settings, share);
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 8; x < kWidth - 8; ++x) {
+        for (uint32_t y = 0; y < kFilteredHeight; ++y)
+            for (uint32_t x = 8; x < kFilteredWidth - 8; ++x) {
                 // Taps at (i + 1/2) / 2 from -8 (1 - share) on: two in each texel they cross, but
                 // for the texel at each end of an odd half.
                 double expected = 0.0;
@@ -270,10 +270,10 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
     // A red post that is static before a green wall that moves.
     const auto isPost = [](uint32_t x) { return x >= 22 && x < 26; };
     Scene scene;
-    scene.color = makeMotion(kWidth, kHeight, [&](uint32_t x, uint32_t) {
+    scene.color = makeMotion(kFilteredWidth, kFilteredHeight, [&](uint32_t x, uint32_t) {
         return isPost(x) ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
     });
-    scene.motionDepth = makeMotion(kWidth, kHeight, [&](uint32_t x, uint32_t) {
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [&](uint32_t x, uint32_t) {
         return isPost(x) ? vec3(0.0f, 0.0f, 2.0f) : vec3(12.0f, 0.0f, 9.0f);
     });
     MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
@@ -283,7 +283,7 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
     const Image tested = blur(device(), scene, settings);
     EXPECT_EQ(test::computeMaxDifferenceWhere(tested, scene.color, everywhere), 0.0);
     // Where every tap is an occluder the sharp colour stays, too.
-    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t x, uint32_t) {
         return x == 24 ? vec3(400.0f, 0.0f, 9.0f) : vec3(0.0f, 0.0f, 2.0f);
     });
     settings.sampleCount = 16; // no tap at its own place
@@ -292,8 +292,8 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
 
 TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
     // A moving tile next to a static one, each with its own neighbourhood.
-    Scene scene = makeScene();
-    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+    Scene scene = makeFilterScene();
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t x, uint32_t) {
         return vec3(x < 16 ? 9.0f : 0.0f, 0.0f, 3.0f);
     });
     for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
@@ -303,7 +303,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
         settings.jitter = 1.0f;
         const Image picture = blur(device(), scene, settings);
         size_t sharp = 0;
-        for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t y = 0; y < kFilteredHeight; ++y)
             for (uint32_t x = 0; x < 16; ++x)
                 sharp += std::abs(picture.at(x, y, 0) - scene.color.at(x, y, 0)) < 1e-4f &&
                          std::abs(picture.at(x, y, 1) - scene.color.at(x, y, 1)) < 1e-4f;
@@ -315,8 +315,8 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionTakesTapsOnBothSidesOfAStaticPixel)
     // A red slab above moves up, one below moves down, the part between is static; the dominant
     // motion runs across. At shutter close each slab was over the middle before.
     Scene scene;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
+    for (uint32_t y = 0; y < kFilteredHeight; ++y)
+        for (uint32_t x = 0; x < kFilteredWidth; ++x) {
             const bool slab = x < 20 && (y < 6 || y >= 26); // out of reach of each other
             scene.color.at(x, y, 0) = slab ? 1.0f : 0.0f;
             scene.motionDepth.at(x, y, 1) = !slab ? 0.0f : y < 6 ? -10.0f : 10.0f;
@@ -335,8 +335,8 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionTakesTapsOnBothSidesOfAStaticPixel)
 
 TEST_F(ScreenFilters, SurfacesAcrossADominantMotionKeepTheirColour) {
     // No weight but the target's own: static pixels, each at a different depth, next to one mover.
-    Scene scene = makeScene();
-    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t y) {
+    Scene scene = makeFilterScene();
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t x, uint32_t y) {
         // The mover is behind them all: it may cover nothing.
         return x == 20 && y == 13 ? vec3(kDominant, 9.0f) : vec3(0.0f, 0.0f, 3.0f);
     });
@@ -354,8 +354,8 @@ TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
     // A mover fills the tiles at the left; with neighbourhoods of one tile only the jitter of the
     // lookup carries its smear over the border at x = 16.
     constexpr uint32_t kTile = 16;
-    Scene scene = makeScene();
-    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+    Scene scene = makeFilterScene();
+    scene.motionDepth = makeMotion(kFilteredWidth, kFilteredHeight, [](uint32_t x, uint32_t) {
         return x < kTile ? vec3(14.0f, 0.0f, 1.0f) : vec3(0.0f, 0.0f, 3.0f);
     });
     for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
@@ -382,12 +382,12 @@ TEST_F(ScreenFilters, MotionThatIsNotFiniteCountsAsNone) {
     const float infinity = std::numeric_limits<float>::infinity();
     for (const auto& [x, y] :
          {std::pair{nan, 0.0f}, {infinity, nan}, {-infinity, infinity}, {3e38f, 3e38f}}) {
-        Scene scene = makeScene();
+        Scene scene = makeFilterScene();
         Scene zeroed = scene;
         std::mt19937 random(11);
         for (int i = 0; i < 200; ++i) {
-            const auto column = uint32_t(random() % kWidth);
-            const auto row = uint32_t(random() % kHeight);
+            const auto column = uint32_t(random() % kFilteredWidth);
+            const auto row = uint32_t(random() % kFilteredHeight);
             if (column == 20 && row == 13)
                 continue;
             scene.motionDepth.at(column, row, 0) = x;

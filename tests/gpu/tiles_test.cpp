@@ -102,7 +102,7 @@ void expectTiles(const Image& motion, const Tiles& tiles, int radius) {
 }
 
 /// Short motions everywhere; in some tiles, one pixel that is long, some longer than a tile.
-Image makeMotion(uint32_t width, uint32_t height, uint32_t seed) {
+Image makeRandomMotion(uint32_t width, uint32_t height, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> shortMotion(-5.0f, 5.0f);
     std::uniform_real_distribution<float> longMotion(-60.0f, 60.0f);
@@ -126,14 +126,14 @@ TEST_F(TileMotion, EverySizeAndNeighbourhoodHasTheLongestMotionOfEachTile) {
           {330u, 250u, 0u},
           {330u, 250u, 2u},
           {1366u, 768u, 1u}}) {
-        const Image motion = makeMotion(width, height, width * 7 + height);
+        const Image motion = makeRandomMotion(width, height, width * 7 + height);
         SCOPED_TRACE(fmt::format("{}x{}, {}", width, height, radius));
         expectTiles(motion, runPasses(device(), motion, 2 * radius + 1), int(radius));
     }
 }
 
 TEST_F(TileMotion, NaNAndInfinityNeverLeaveTheirPixel) {
-    Image motion = makeMotion(121, 83, 3);
+    Image motion = makeRandomMotion(121, 83, 3);
     const float values[] = {
         std::numeric_limits<float>::quiet_NaN(),
         std::numeric_limits<float>::infinity(),

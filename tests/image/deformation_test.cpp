@@ -28,9 +28,9 @@ using test::Shot;
 using test::Stage;
 using WorldAt = std::function<dvec3(const dvec3& rest, double seconds)>;
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 64;
-constexpr double kYFov = 0.9;
+constexpr uint32_t kDeformWidth = 96;
+constexpr uint32_t kDeformHeight = 64;
+constexpr double kDeformYFov = 0.9;
 
 class DeformLaw : public test::RayTest {
   protected:
@@ -45,7 +45,7 @@ class DeformLaw : public test::RayTest {
 /// A textured wall, lit.
 SceneBuilder makeRoom() {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kDeformYFov);
     scene.addSun(glm::normalize(dvec3(-0.3, -0.6, -0.8)), 2.0f);
     scene.add(test::makeQuad(8, 6, scene.addWaves()), {.position = {0, 0, -5}});
     return scene;
@@ -157,8 +157,10 @@ dvec3 flag(const dvec3& rest, double seconds) {
 }
 
 dvec2 project(const dvec3& world) {
-    const double focal = kHeight / 2.0 / std::tan(kYFov / 2.0);
-    return {kWidth / 2.0 - focal * world.x / world.z, kHeight / 2.0 + focal * world.y / world.z};
+    const double focal = kDeformHeight / 2.0 / std::tan(kDeformYFov / 2.0);
+    return {
+        kDeformWidth / 2.0 - focal * world.x / world.z,
+        kDeformHeight / 2.0 + focal * world.y / world.z};
 }
 
 /// Open to close motion of what the pixel's ray meets of the mesh; nothing where it meets nothing.
@@ -168,8 +170,8 @@ std::optional<dvec2> expectedMotion(
     const dvec2& px,
     const scene::ExposureInterval& exposure
 ) {
-    const double focal = kHeight / 2.0 / std::tan(kYFov / 2.0);
-    const dvec3 direction(px.x - kWidth / 2.0, kHeight / 2.0 - px.y, -focal);
+    const double focal = kDeformHeight / 2.0 / std::tan(kDeformYFov / 2.0);
+    const dvec3 direction(px.x - kDeformWidth / 2.0, kDeformHeight / 2.0 - px.y, -focal);
     std::optional<dvec2> motion;
     double nearest = 1e30;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -216,8 +218,8 @@ void expectMotion(
         size_t compared = 0;
         double longest = 0.0;
         double shortest = 1e9;
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x) {
+        for (uint32_t y = 0; y < kDeformHeight; ++y)
+            for (uint32_t x = 0; x < kDeformWidth; ++x) {
                 const auto expected =
                     expectedMotion(mesh, worldAt, dvec2(x + 0.5, y + 0.5), exposure);
                 if (ids.at(x, y, 0) < 0.0f || !expected)
@@ -239,11 +241,11 @@ scene::AssetIndex addTwoSided(SceneBuilder& scene) {
 
 TEST_F(DeformLaw, ABendingStripAndAMorphingFlagMoveByTheClosedForm) {
     SceneBuilder bending;
-    bending.setPerspective(kYFov);
+    bending.setPerspective(kDeformYFov);
     addDeformingStrip(bending, addTwoSided(bending));
     expectMotion(device(), bending, test::makeStrip(0.7, kStripHeight, 12, 0), strip);
     SceneBuilder morphing;
-    morphing.setPerspective(kYFov);
+    morphing.setPerspective(kDeformYFov);
     test::addMorphed(morphing, makeFlag(addTwoSided(morphing)), kFlag, kFlagWay);
     expectMotion(device(), morphing, makeFlag(0), flag);
 }

@@ -22,14 +22,14 @@ using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
 
-constexpr double kYFov = 0.9;
+constexpr double kLensYFov = 0.9;
 
 class LensLaw : public test::GpuTest {};
 
 /// A wall of waves at 5 m, a white box before it that tumbles, if anything moves.
 SceneBuilder makeRoom(const CameraLens& lens, bool moves = false) {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kLensYFov);
     scene.world.registry.add(scene.camera, lens);
     scene.add(test::makeQuad(14, 9, scene.addWaves()), {.position = {0, 0, -5}});
     test::Placement box{.position = {0.2, 0.1, -2}};
@@ -90,7 +90,7 @@ TEST_F(LensLaw, MethodsWithoutALensDrawThePinhole) {
 
 TEST_F(LensLaw, APlaneInFocusIsSharpAndSurfacesOfOneColourStayIt) {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kLensYFov);
     scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
     scene.add(test::makeQuad(20, 14, scene.addWaves()), {.position = {0, 0, -5}});
     Stage stage(device(), scene);
@@ -102,7 +102,7 @@ TEST_F(LensLaw, APlaneInFocusIsSharpAndSurfacesOfOneColourStayIt) {
     );
 
     SceneBuilder grey;
-    grey.setPerspective(kYFov);
+    grey.setPerspective(kLensYFov);
     grey.world.registry.add(grey.camera, CameraLens{.fStop = 0.5, .focusDistance = 3.0});
     for (const double z : {-1.0, -3.0, -9.0})
         grey.add(test::makeQuad(1, 1, grey.addColor({0.5f, 0.5f, 0.5f})), {.position = {0, 0, z}});
@@ -147,7 +147,7 @@ Spot measureSpot(const image::Image& picture) {
 
 constexpr uint32_t kSpotWidth = 96;
 constexpr uint32_t kSpotHeight = 64;
-const double kPixelsPerUnit = kSpotHeight / (2.0 * std::tan(kYFov / 2.0));
+const double kPixelsPerUnit = kSpotHeight / (2.0 * std::tan(kLensYFov / 2.0));
 
 /// A white dot, 4 px wide from border to border of pixels, alone at a depth.
 Spot drawSpot(
@@ -157,9 +157,9 @@ Spot drawSpot(
     std::string_view method = "accumulate"
 ) {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kLensYFov);
     scene.world.registry.add(scene.camera, lens);
-    const double pixel = 2.0 * std::tan(kYFov / 2.0) / kSpotHeight * depth;
+    const double pixel = 2.0 * std::tan(kLensYFov / 2.0) / kSpotHeight * depth;
     scene.add(
         test::makeQuad(4 * pixel, 4 * pixel, scene.addColor({1, 1, 1})),
         {.position = {0, 0, -depth}}
@@ -191,7 +191,7 @@ TEST_F(LensLaw, APointOfLightIsADiscOfTheThinLenssDiameter) {
             const Spot spot = drawSpot(device(), lens, depth);
             const math::dvec2 diameters = findDiameters(spot, sharp);
             const double expected = scene::computeConfusionDiameter(
-                lens, scene::computeLensRadius(lens, kYFov), depth, kPixelsPerUnit
+                lens, scene::computeLensRadius(lens, kLensYFov), depth, kPixelsPerUnit
             );
             EXPECT_NEAR(diameters.x, expected * squeeze, 0.5) << depth;
             EXPECT_NEAR(diameters.y, expected, 0.5) << depth;
@@ -211,9 +211,10 @@ TEST_F(LensLaw, TheOpeningIsInvertedInFrontOfTheFocus) {
     const CameraLens lens{
         .fStop = 0.0125, .focusDistance = 3.0, .blades = 3}; // a corner to the right
     // At both depths; E[x^3] of a triangle is a 40th of its circumradius's cube.
-    const double radius = 0.5 * scene::computeConfusionDiameter(
-                                    lens, scene::computeLensRadius(lens, kYFov), 6.0, kPixelsPerUnit
-                                );
+    const double radius =
+        0.5 * scene::computeConfusionDiameter(
+                  lens, scene::computeLensRadius(lens, kLensYFov), 6.0, kPixelsPerUnit
+              );
     const double skew = std::pow(radius, 3.0) / 40.0;
     EXPECT_NEAR(drawSpot(device(), lens, 6.0).skew, skew, 0.05 * skew);
     EXPECT_NEAR(drawSpot(device(), lens, 2.0).skew, -skew, 0.05 * skew);
@@ -321,7 +322,7 @@ TEST_F(LensLaw, ResolvedSpreadsAPointOfLightOverTheSameDisc) {
         // The filter over sets of places widens it a little.
         const math::dvec2 diameters = findDiameters(spot, sharp);
         const double expected = scene::computeConfusionDiameter(
-            lens, scene::computeLensRadius(lens, kYFov), depth, kPixelsPerUnit
+            lens, scene::computeLensRadius(lens, kLensYFov), depth, kPixelsPerUnit
         );
         EXPECT_NEAR(diameters.x, expected, 0.7) << depth;
         EXPECT_NEAR(diameters.y, expected, 0.7) << depth;
@@ -332,7 +333,7 @@ TEST_F(LensLaw, ResolvedSpreadsAPointOfLightOverTheSameDisc) {
 
 TEST_F(LensLaw, ResolvedLeavesWhatIsInFocusAndSurfacesOfOneColour) {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kLensYFov);
     scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.5, .focusDistance = 5.0});
     scene.add(test::makeQuad(20, 14, scene.addWaves()), {.position = {0, 0, -5}});
     Stage stage(device(), scene);
@@ -342,7 +343,7 @@ TEST_F(LensLaw, ResolvedLeavesWhatIsInFocusAndSurfacesOfOneColour) {
     EXPECT_TRUE(test::sameBits(stage.render(shot).color, sharp));
 
     SceneBuilder grey;
-    grey.setPerspective(kYFov);
+    grey.setPerspective(kLensYFov);
     grey.world.registry.add(grey.camera, CameraLens{.fStop = 0.1, .focusDistance = 3.0});
     for (const double z : {-1.0, -3.0, -9.0})
         grey.add(test::makeQuad(1, 1, grey.addColor({0.5f, 0.5f, 0.5f})), {.position = {0, 0, z}});
@@ -380,7 +381,7 @@ TEST_F(LensLaw, ResolvedIsNearTheMeanOfManyPicturesWithAndWithoutMotion) {
 
 TEST_F(LensLaw, FramesWhoseMeanIsThePictureTakeTurnsInThePlacesOfTheLens) {
     SceneBuilder scene;
-    scene.setPerspective(kYFov);
+    scene.setPerspective(kLensYFov);
     scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.2, .focusDistance = 2.0});
     scene.add(test::makeQuad(6, 4, scene.addWaves()), {.position = {0, 0, -5}});
     Shot shot{
@@ -409,7 +410,7 @@ TEST_F(LensLaw, ResolvedHasTheSameBitsInEachRunAndOrderOfEntities) {
     std::vector<image::Image> pictures;
     for (const bool isReversed : {false, false, true}) {
         SceneBuilder scene;
-        scene.setPerspective(kYFov);
+        scene.setPerspective(kLensYFov);
         scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.1, .focusDistance = 3.0});
         const auto grey = scene.addColor({0.6f, 0.5f, 0.4f});
         const auto waves = scene.addWaves();

@@ -285,8 +285,8 @@ TEST_F(Rosado2007, AMovingObjectStaysSharpUnderAStaticCamera) {
     EXPECT_TRUE(test::sameBits(result.color, sharp.color));
 }
 
-constexpr uint32_t kWidth = 192;
-constexpr uint32_t kHeight = 128;
+constexpr uint32_t kMethodWidth = 192;
+constexpr uint32_t kMethodHeight = 128;
 constexpr double kWayPx = 120.0;
 
 class InstantNoises : public test::GpuTest {
@@ -294,8 +294,8 @@ class InstantNoises : public test::GpuTest {
     static test::Shot shotOf(std::string_view method, InstantNoise noise = InstantNoise::Off) {
         test::Shot shot{
             .method = method,
-            .width = kWidth,
-            .height = kHeight,
+            .width = kMethodWidth,
+            .height = kMethodHeight,
             .exposureSeconds = 1.0,
             .frameSeconds = 2.0,
             .instants = 240};
@@ -306,9 +306,9 @@ class InstantNoises : public test::GpuTest {
     /// A bright post two pixels wide that crosses a black picture.
     static test::SceneBuilder makePost(double wayPx = kWayPx) {
         test::SceneBuilder scene;
-        scene.setPixelView(kHeight);
+        scene.setPixelView(kMethodHeight);
         scene.add(
-            test::makeQuad(2.0, 2.0 * kHeight, scene.addColor(math::vec3(1.0f))),
+            test::makeQuad(2.0, 2.0 * kMethodHeight, scene.addColor(math::vec3(1.0f))),
             {.position = {0.0, 0.0, -10.0}, .velocity = {wayPx, 0.0, 0.0}}
         );
         return scene;
@@ -322,23 +322,23 @@ struct SmearError {
 };
 
 SmearError measureSmear(const image::Image& picture, const image::Image& truth) {
-    const auto from = uint32_t(0.5 * (kWidth - 0.8 * kWayPx));
+    const auto from = uint32_t(0.5 * (kMethodWidth - 0.8 * kWayPx));
     double bright = 0.0;
     double banding = 0.0;
     double noise = 0.0;
-    for (uint32_t x = from; x < kWidth - from; ++x) {
+    for (uint32_t x = from; x < kMethodWidth - from; ++x) {
         double mean = 0.0;
         double squares = 0.0;
-        for (uint32_t y = 0; y < kHeight; ++y) {
+        for (uint32_t y = 0; y < kMethodHeight; ++y) {
             const double error = double(picture.at(x, y, 0)) - double(truth.at(x, y, 0));
-            mean += error / kHeight;
-            squares += error * error / kHeight;
-            bright += double(truth.at(x, y, 0)) / kHeight;
+            mean += error / kMethodHeight;
+            squares += error * error / kMethodHeight;
+            bright += double(truth.at(x, y, 0)) / kMethodHeight;
         }
         banding += mean * mean;
         noise += squares - mean * mean;
     }
-    const double columns = kWidth - 2.0 * from;
+    const double columns = kMethodWidth - 2.0 * from;
     return {
         std::sqrt(banding / columns) * columns / bright,
         // Equal columns leave a difference of roundings, which may be negative.
@@ -353,8 +353,8 @@ class NumberedFrames : public test::Frames {
     image::Image at(int frame, InstantNoise noise) {
         constexpr double kFrameSeconds = 1.0 / 30.0;
         return draw({.method = "resolved",
-                     .width = kWidth,
-                     .height = kHeight,
+                     .width = kMethodWidth,
+                     .height = kMethodHeight,
                      .seconds = frame * kFrameSeconds,
                      .frameSeconds = kFrameSeconds,
                      .settings = {.history = false, .instantNoise = noise}}
@@ -411,7 +411,7 @@ TEST_F(InstantNoises, SlowMoversHaveNoNoise) {
 
 TEST_F(InstantNoises, NoiseDoesNotChangeAUniformSurface) {
     test::SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kMethodHeight);
     scene.add(
         test::makeQuad(1000.0, 1000.0, scene.addColor({0.25f, 0.5f, 0.75f})),
         {.position = {0.0, 0.0, -10.0}, .velocity = {kWayPx, 0.5 * kWayPx, 0.0}}
@@ -429,10 +429,10 @@ TEST_F(InstantNoises, NoiseDoesNotChangeAUniformSurface) {
 // Blocks of one plane and pixels that search each for itself take the same instants.
 TEST_F(InstantNoises, BlockLookupsEqualThoseOfTheirPixels) {
     test::SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kMethodHeight);
     const scene::AssetIndex waves = scene.addTextured(scene.addWaveTexture(), true);
     scene.add(
-        test::makeQuad(8.0 * kWidth, 8.0 * kWidth, waves),
+        test::makeQuad(8.0 * kMethodWidth, 8.0 * kMethodWidth, waves),
         {.position = {0.0, 0.0, -10.0}, .velocity = {kWayPx, 0.3 * kWayPx, 0.0}}
     );
     test::Shot shot = shotOf("resolved", InstantNoise::Fixed);
@@ -466,9 +466,9 @@ TEST_F(InstantNoises, AFrameHasTheSameBitsHoweverItWasReached) {
 // The post is put where it was in each frame: only the noise differs.
 TEST_F(InstantNoises, TurningHasOtherGrainInEachFrameWhichVanishesInTheMean) {
     test::SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kMethodHeight);
     const ecs::Entity post =
-        scene.add(test::makeQuad(2.0, 2.0 * kHeight, scene.addColor(math::vec3(1.0f))), {});
+        scene.add(test::makeQuad(2.0, 2.0 * kMethodHeight, scene.addColor(math::vec3(1.0f))), {});
     const auto draw = [&](int frame, test::Shot shot) {
         shot.seconds = frame * shot.frameSeconds;
         shot.settings.history = false;
@@ -484,7 +484,7 @@ TEST_F(InstantNoises, TurningHasOtherGrainInEachFrameWhichVanishesInTheMean) {
     EXPECT_FALSE(test::sameBits(first, draw(1, turning)));
     const auto truth = draw(0, shotOf("accumulate"));
     constexpr int kFrames = 5;
-    image::Image mean(kWidth, kHeight, first.channels);
+    image::Image mean(kMethodWidth, kMethodHeight, first.channels);
     for (int frame = 0; frame < kFrames; ++frame) {
         const auto drawn = draw(frame, turning);
         for (size_t i = 0; i < mean.pixels.size(); ++i)

@@ -55,8 +55,8 @@ const Model kModels[] = {
     {"RollingTruck", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08, 1.3, {0, 0, 2.15}, 1.5},
 };
 
-constexpr uint32_t kWidth = 320;
-constexpr uint32_t kHeight = 180;
+constexpr uint32_t kSourceWidth = 320;
+constexpr uint32_t kSourceHeight = 180;
 
 /// Stops every clip in its pose at `seconds`.
 void freeze(scene::World& world, double seconds) {
@@ -114,8 +114,9 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         auto loaded = gltf::loadGltf(path);
         ASSERT_TRUE(loaded) << loaded.error().message;
         mScene.world = std::move(loaded.value().world);
-        mScene.camera =
-            scene::addFramingCamera(mScene.world, double(kWidth) / kHeight, GetParam().seconds);
+        mScene.camera = scene::addFramingCamera(
+            mScene.world, double(kSourceWidth) / kSourceHeight, GetParam().seconds
+        );
         walkRound(GetParam().yaw);
         slide(mScene.world, GetParam().seconds, GetParam().velocity);
         mScene.addSun({-0.3, -1.0, -0.5}, 2.0f);
@@ -133,8 +134,8 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
     [[nodiscard]] static Shot makeShot(std::string_view method) {
         Shot shot;
         shot.method = method;
-        shot.width = kWidth;
-        shot.height = kHeight;
+        shot.width = kSourceWidth;
+        shot.height = kSourceHeight;
         shot.seconds = GetParam().seconds;
         shot.exposureSeconds = GetParam().exposureSeconds;
         shot.background = math::vec3(0.18f);
@@ -171,12 +172,14 @@ TEST_P(MotionSources, MotionVectorsAreDifferencesOfRasterisedPositions) {
     const auto result = test::renderOnce(device(), mScene, shot);
     const image::Image& motion = result.intermediates.at("motion");
     const auto exposure = scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds);
-    const test::ExpectedMotion expected(mScene.world, mScene.camera, exposure, kWidth, kHeight);
+    const test::ExpectedMotion expected(
+        mScene.world, mScene.camera, exposure, kSourceWidth, kSourceHeight
+    );
     size_t inside = 0;
     double longest = 0.0;
     double worst = 0.0;
-    for (int y = 1; y + 1 < int(kHeight); ++y)
-        for (int x = 1; x + 1 < int(kWidth); ++x) {
+    for (int y = 1; y + 1 < int(kSourceHeight); ++y)
+        for (int x = 1; x + 1 < int(kSourceWidth); ++x) {
             if (!isInside(motion, expected, x, y))
                 continue;
             const dvec2 actual(

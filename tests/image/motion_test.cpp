@@ -27,9 +27,9 @@ using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 64;
-constexpr double kYFov = 0.9;
+constexpr uint32_t kMotionWidth = 96;
+constexpr uint32_t kMotionHeight = 64;
+constexpr double kMotionYFov = 0.9;
 constexpr double kTolerancePx = 0.001; // pixels
 
 constexpr ShutterPhase kPhases[] = {ShutterPhase::Start, ShutterPhase::Centre, ShutterPhase::End};
@@ -40,18 +40,18 @@ class MotionLaw : public test::GpuTest {};
 struct Pinhole {
     dmat4 worldFromView{1.0};
 
-    static double focalPx() { return kHeight / 2.0 / std::tan(kYFov / 2.0); }
+    static double focalPx() { return kMotionHeight / 2.0 / std::tan(kMotionYFov / 2.0); }
 
     [[nodiscard]] dvec3 directionOf(const dvec2& px) const {
-        const dvec3 view((px.x - kWidth / 2.0), (kHeight / 2.0 - px.y), -focalPx());
+        const dvec3 view((px.x - kMotionWidth / 2.0), (kMotionHeight / 2.0 - px.y), -focalPx());
         return math::dmat3(worldFromView) * view;
     }
 
     [[nodiscard]] dvec2 project(const dvec4& world) const {
         const dvec4 view = glm::inverse(worldFromView) * world;
         return {
-            kWidth / 2.0 - focalPx() * view.x / view.z,
-            kHeight / 2.0 + focalPx() * view.y / view.z};
+            kMotionWidth / 2.0 - focalPx() * view.x / view.z,
+            kMotionHeight / 2.0 + focalPx() * view.y / view.z};
     }
 };
 
@@ -114,7 +114,7 @@ dvec2 motionWithinStep(
 /// Checks every pixel that shows the plane (or the sky, without one), in every phase.
 void expectMotion(gpu::Device& device, const Case& known, double longerThanPx) {
     SceneBuilder builder;
-    builder.setPerspective(kYFov);
+    builder.setPerspective(kMotionYFov);
     builder.moveCamera(known.camera);
     if (known.plane)
         builder.add(test::makeQuad(2.0, 1.5, builder.addColor({1, 1, 1})), *known.plane);
@@ -128,8 +128,8 @@ void expectMotion(gpu::Device& device, const Case& known, double longerThanPx) {
         const auto exposure = scene::computeExposure({0.5, phase}, 0.2);
         size_t compared = 0;
         double longest = 0.0;
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x) {
+        for (uint32_t y = 0; y < kMotionHeight; ++y)
+            for (uint32_t x = 0; x < kMotionWidth; ++x) {
                 if ((ids.at(x, y, 0) >= 0.0f) != known.plane.has_value())
                     continue;
                 const dvec2 px(x + 0.5, y + 0.5);
@@ -175,8 +175,8 @@ size_t countStill(gpu::Device& device, const SceneBuilder& scene, bool isSky) {
     const auto result = test::renderOnce(device, scene, {.aovs = {"motion", "mesh_id"}});
     const image::Image& motion = result.intermediates.at("motion");
     size_t still = 0;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
+    for (uint32_t y = 0; y < kMotionHeight; ++y)
+        for (uint32_t x = 0; x < kMotionWidth; ++x) {
             if ((result.intermediates.at("mesh_id").at(x, y, 0) < 0.0f) != isSky)
                 continue;
             EXPECT_EQ(motion.at(x, y, 0), 0.0f) << x << ", " << y;
@@ -188,7 +188,7 @@ size_t countStill(gpu::Device& device, const SceneBuilder& scene, bool isSky) {
 
 TEST_F(MotionLaw, ACameraTranslationLeavesTheSkyExactlyStill) {
     SceneBuilder builder;
-    builder.setPerspective(kYFov);
+    builder.setPerspective(kMotionYFov);
     builder.moveCamera({.velocity = {3.0, 1.0, -2.0}});
     builder.add(test::makeQuad(1, 1, builder.addColor({1, 1, 1})), {.position = {0, 0, -4}});
     EXPECT_GT(countStill(device(), builder, true), 1000u);
@@ -196,7 +196,7 @@ TEST_F(MotionLaw, ACameraTranslationLeavesTheSkyExactlyStill) {
 
 TEST_F(MotionLaw, AStaticSceneUnderAStillCameraHasMotionExactlyZero) {
     SceneBuilder builder;
-    builder.setPerspective(kYFov);
+    builder.setPerspective(kMotionYFov);
     // Far from the origin, turned: nothing in it is a round number.
     const dvec3 far(1234.5, -77.3, 9876.1);
     const auto turned = glm::angleAxis(0.7, glm::normalize(dvec3(0.2, 1.0, 0.4)));
@@ -213,7 +213,7 @@ TEST_F(MotionLaw, MotionThroughTheCameraEndsWhereThePathLeavesThePicturesFront) 
     // f x / near, and not to the mirrored place that a projection from behind would give.
     constexpr double kNear = 0.05;
     SceneBuilder builder;
-    builder.setPerspective(kYFov, kNear);
+    builder.setPerspective(kMotionYFov, kNear);
     builder.add(
         test::makeQuad(1, 0.8, builder.addColor({1, 1, 1})),
         {.position = {0, 0, -2}, .velocity = {0, 0, 6}}
@@ -223,11 +223,11 @@ TEST_F(MotionLaw, MotionThroughTheCameraEndsWhereThePathLeavesThePicturesFront) 
     );
     const image::Image& motion = result.intermediates.at("motion");
     size_t compared = 0;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
+    for (uint32_t y = 0; y < kMotionHeight; ++y)
+        for (uint32_t x = 0; x < kMotionWidth; ++x) {
             if (result.intermediates.at("mesh_id").at(x, y, 0) < 0.0f)
                 continue;
-            const dvec2 fromCentre(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
+            const dvec2 fromCentre(x + 0.5 - kMotionWidth / 2.0, y + 0.5 - kMotionHeight / 2.0);
             const dvec2 expected = fromCentre * (2.0 / kNear - 1.0);
             // Divided by a w of 0.05 that is the difference of numbers near 6 in single precision:
             // 6 * 2^-24 / 0.05, some 1e-5 of the place.
@@ -375,9 +375,9 @@ TEST_F(ZoomLaw, MotionVectorsAreRadialAtEveryDepthAndInTheSky) {
     const double stretch = halfExtent(0.0) / halfExtent(0.25) - halfExtent(0.0) / halfExtent(-0.25);
     EXPECT_GT(stretch, 0.05);
     std::set<float> ids;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            const math::dvec2 place(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
+    for (uint32_t y = 0; y < kMotionHeight; ++y)
+        for (uint32_t x = 0; x < kMotionWidth; ++x) {
+            const math::dvec2 place(x + 0.5 - kMotionWidth / 2.0, y + 0.5 - kMotionHeight / 2.0);
             // Stored as half floats.
             const double tolerance = 1e-3 + 1e-3 * glm::length(place) * stretch;
             ASSERT_NEAR(motion.at(x, y, 0), place.x * stretch, tolerance) << x << " " << y;
@@ -411,7 +411,7 @@ constexpr uint32_t kTilePx = 16;
 constexpr double kSpeedPx = 11.3;
 constexpr double kMiddlePx = -13.3; // of the rectangle that moves, from the picture's
 constexpr double kWidthPx = 21.3;
-constexpr uint32_t kInstants = 17;
+constexpr uint32_t kMotionInstants = 17;
 
 /// Two flat rectangles before a flat wall; `side` -1 mirrors places and motion. Silhouettes lie off
 /// the pixel centres, so that coverage has no ties.
@@ -444,10 +444,12 @@ void expectTapsAwayFromTexelBorders(double rasterTime) {
 /// (VkPhysicalDeviceLimits::subPixelPrecisionBits): at none of the instants may that bring a
 /// silhouette to a pixel centre.
 void expectSilhouettesAwayFromPixelCentres(const scene::ExposureInterval& exposure) {
-    for (uint32_t i = 0; i < kInstants; ++i)
+    for (uint32_t i = 0; i < kMotionInstants; ++i)
         for (const double side : {-0.5, 0.5}) {
-            const double seconds = glm::mix(exposure.open, exposure.close, (i + 0.5) / kInstants);
-            const double at = kWidth / 2.0 + kMiddlePx + side * kWidthPx + kSpeedPx * seconds - 0.5;
+            const double seconds =
+                glm::mix(exposure.open, exposure.close, (i + 0.5) / kMotionInstants);
+            const double at =
+                kMotionWidth / 2.0 + kMiddlePx + side * kWidthPx + kSpeedPx * seconds - 0.5;
             ASSERT_GT(std::abs(at - std::round(at)), 1.0 / 16.0) << "instant " << i;
         }
 }
@@ -469,7 +471,7 @@ TEST_F(MirrorLaw, AMirroredSceneAndAMirroringCameraMakeTheMirroredPicture) {
                 .method = method,
                 .phase = phase,
                 .background = math::vec3(0.05f),
-                .instants = kInstants};
+                .instants = kMotionInstants};
             shot.settings.jitter = 0.0f;
             shot.settings.raysPerPixel = 0.0f;  // which samples get them depends on the pixel
             shot.settings.tileSizePx = kTilePx; // 96 and 64 are multiples

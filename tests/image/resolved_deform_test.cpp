@@ -22,9 +22,9 @@ using test::Placement;
 using test::SceneBuilder;
 using test::Shot;
 
-constexpr uint32_t kWidth = 192;
-constexpr uint32_t kHeight = 128;
-constexpr double kExposure = 1.0 / 48.0;
+constexpr uint32_t kResolvedWidth = 192;
+constexpr uint32_t kResolvedHeight = 128;
+constexpr double kResolvedExposure = 1.0 / 48.0;
 
 constexpr std::string_view kFilters[] = {
     "own_velocity", "mcguire2012", "jimenez2014", "guertin2014", "gather"};
@@ -34,9 +34,9 @@ class ResolvedDeform : public test::GpuTest {
     static Shot shotOf(std::string_view method) {
         Shot shot{
             .method = method,
-            .width = kWidth,
-            .height = kHeight,
-            .exposureSeconds = kExposure,
+            .width = kResolvedWidth,
+            .height = kResolvedHeight,
+            .exposureSeconds = kResolvedExposure,
             .phase = scene::ShutterPhase::End,
             .frameSeconds = 1.0 / 24.0,
             .instants = 15};
@@ -114,8 +114,8 @@ TEST_F(ResolvedDeform, AMorphsEdgesHaveTheProfileOfAMovingEdge) {
     constexpr double kWay = 15.0;
     constexpr double kBar = 40.5;
     SceneBuilder scene;
-    scene.setPixelView(kHeight);
-    const math::dvec3 speed(2.0 * kWay / kExposure, 0, 0);
+    scene.setPixelView(kResolvedHeight);
+    const math::dvec3 speed(2.0 * kWay / kResolvedExposure, 0, 0);
     scene.add(
         test::makeQuad(300, 300, scene.addColor(math::vec3(0.1f))), {.position = {0, 0, -20}}
     );
@@ -126,9 +126,9 @@ TEST_F(ResolvedDeform, AMorphsEdgesHaveTheProfileOfAMovingEdge) {
         Shot shot = shotOf(method);
         shot.settings.sampleCount = 30;
         const image::Image picture = draw(scene, shot);
-        const double left = kWidth / 2.0 - kBar / 2.0;
+        const double left = kResolvedWidth / 2.0 - kBar / 2.0;
         for (int x = int(left - kWay) - 3; x < int(left + kBar) + 4; ++x) {
-            const double got = (picture.at(uint32_t(x), kHeight / 2, 0) - 0.1) / 0.9;
+            const double got = (picture.at(uint32_t(x), kResolvedHeight / 2, 0) - 0.1) / 0.9;
             EXPECT_NEAR(got, coverAnalytically(x - left, kBar, kWay), 0.02) << method << " " << x;
         }
     }
@@ -196,14 +196,14 @@ TEST_F(ResolvedDeform, ASkinWhoseJointsMoveAsOneIsTheRigidMover) {
 /// A square that morph targets move and squeeze, and its mirror image for `side` -1.
 SceneBuilder makeSqueezed(double side) {
     SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kResolvedHeight);
     scene.add(
         test::makeQuad(400, 300, scene.addColor({0.2f, 0.6f, 0.3f})), {.position = {0, 0, -20}}
     );
     scene::Primitive quad = test::makeQuad(41.3, 50.6, scene.addColor({0.9f, 0.1f, 0.4f}));
     scene::MorphTarget target;
     // From one second to the next: so far in an exposure.
-    const float perExposure = float(2.0 / kExposure);
+    const float perExposure = float(2.0 / kResolvedExposure);
     for (const math::vec3& place : quad.positions)
         target.positions.push_back(
             perExposure * math::vec3(side * 12.3 - 0.3 * place.x, 0.2 * place.y, 0.0)
@@ -314,7 +314,7 @@ TEST_F(ResolvedDeform, AMeshOfTwoPrimitivesMovesAsTheSameMeshOfOne) {
 /// Three limbs of one body that cross within a tile, each before the next.
 SceneBuilder makeLimbs() {
     SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kResolvedHeight);
     scene.add(
         test::makeQuad(300, 300, scene.addColor({0.2f, 0.3f, 0.4f})), {.position = {0, 0, -20}}
     );
@@ -326,7 +326,7 @@ SceneBuilder makeLimbs() {
         const scene::Primitive quad = test::makeQuad(5, 70, body.material);
         const auto first = uint32_t(body.positions.size());
         for (const math::vec3& place : quad.positions) {
-            const math::vec3 way(ways[limb] * float(2.0 / kExposure), 0, 0);
+            const math::vec3 way(ways[limb] * float(2.0 / kResolvedExposure), 0, 0);
             target.positions.push_back(way);
             // At rest halfway, where the exposure ends.
             body.positions.push_back(place + math::vec3(6 * limb, 0, -limb) - 0.5f * way);
@@ -354,7 +354,7 @@ TEST_F(ResolvedDeform, LimbsThatCrossWithinATileAreAllFound) {
 /// tiles. A static post is in front of it.
 SceneBuilder makeScissors() {
     SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kResolvedHeight);
     scene.add(test::makeQuad(300, 300, scene.addWaves()), {.position = {0, 0, -20}});
     scene::Primitive sheet =
         test::makeStrip(150, 96, 2, scene.addTextured(scene.addWaveTexture(), true));
@@ -372,7 +372,7 @@ SceneBuilder makeScissors() {
             sheet.indices[i] += 4;
     scene::MorphTarget target;
     for (uint32_t vertex = 0; vertex < sheet.positions.size(); ++vertex) {
-        const float way = (vertex < 4 ? 26.0f : -22.0f) * float(2.0 / kExposure);
+        const float way = (vertex < 4 ? 26.0f : -22.0f) * float(2.0 / kResolvedExposure);
         target.positions.push_back({way, 0, 0});
         sheet.positions[vertex].x -= 0.5f * way;
     }
@@ -422,7 +422,7 @@ SceneBuilder makeHard(SceneBuilder scene, const HardShape& shape, double open) {
     scene::MorphTarget target;
     for (const math::vec3& place : strip.positions)
         target.positions.push_back(
-            float(shape.growth * 2.0 / kExposure) * (math::vec3(0, 0.8f, 0) - place)
+            float(shape.growth * 2.0 / kResolvedExposure) * (math::vec3(0, 0.8f, 0) - place)
         );
     // As at rest when the exposure opens.
     for (size_t i = 0; i < strip.positions.size(); ++i)
@@ -441,7 +441,7 @@ SceneBuilder makeHard(SceneBuilder scene, const HardShape& shape, double open) {
     world.registry.destroy(morphed);
     scene::AnimationChannel scales;
     scales.path = scene::AnimationPath::Scale;
-    scales.times = {float(open), float(open + kExposure)};
+    scales.times = {float(open), float(open + kResolvedExposure)};
     scales.values = {math::vec4(shape.scaleAtOpen, 0), math::vec4(shape.scaleAtClose, 0)};
     scene::AnimationClip clip;
     clip.channels.push_back(scales);
@@ -456,7 +456,8 @@ TEST_F(ResolvedDeform, CollapsingInvertedOrDegenerateShapesAreFiniteAndBetterTha
         for (const auto phase : {scene::ShutterPhase::Start, scene::ShutterPhase::End}) {
             const bool isEnd = phase == scene::ShutterPhase::End;
             SCOPED_TRACE(std::string(shape.name) + (isEnd ? ", end" : ", start"));
-            const SceneBuilder scene = makeHard(makeRoom(), shape, isEnd ? -kExposure : 0.0);
+            const SceneBuilder scene =
+                makeHard(makeRoom(), shape, isEnd ? -kResolvedExposure : 0.0);
             const auto drawPhase = [&](std::string_view method, bool hasSecond = false) {
                 Shot shot = shotOf(method);
                 shot.phase = phase;
@@ -482,9 +483,9 @@ TEST_F(ResolvedDeform, CollapsingInvertedOrDegenerateShapesAreFiniteAndBetterTha
 TEST_F(ResolvedDeform, TheLightThatLeavesASilhouetteIsAllThere) {
     // Its borders are pixels' borders in the raster: what that shows is the strip's own area.
     SceneBuilder scene;
-    scene.setPixelView(kHeight);
+    scene.setPixelView(kResolvedHeight);
     const std::array joints{
-        Placement{.position = {20, -35, -10}, .velocity = {20.0 / kExposure, 0, 0}},
+        Placement{.position = {20, -35, -10}, .velocity = {20.0 / kResolvedExposure, 0, 0}},
         Placement{.position = {0, 35, 0}, .angularVelocity = {0, 0, 12}}};
     test::addSkinned(scene, test::makeStrip(26, 70, 16, scene.addColor(math::vec3(1.0f))), joints);
     const image::Image sharp = draw(scene, shotOf("sharp"));
@@ -493,8 +494,8 @@ TEST_F(ResolvedDeform, TheLightThatLeavesASilhouetteIsAllThere) {
     truthShot.instants = 256;
     const auto sumOutside = [&](const image::Image& picture) {
         double sum = 0.0;
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x)
+        for (uint32_t y = 0; y < kResolvedHeight; ++y)
+            for (uint32_t x = 0; x < kResolvedWidth; ++x)
                 sum += sharp.at(x, y, 0) > 0.5f ? 0.0 : double(picture.at(x, y, 0));
         return sum;
     };
@@ -514,10 +515,10 @@ class DeformFrames : public test::Frames {
     render::FrameResult at(int frame) {
         return draw(
             {.method = "resolved",
-             .width = kWidth,
-             .height = kHeight,
+             .width = kResolvedWidth,
+             .height = kResolvedHeight,
              .seconds = frame / 24.0,
-             .exposureSeconds = kExposure,
+             .exposureSeconds = kResolvedExposure,
              .phase = scene::ShutterPhase::End,
              .frameSeconds = 1.0 / 24.0}
         );

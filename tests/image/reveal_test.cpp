@@ -398,11 +398,11 @@ void PrintTo(const SceneCase& scene, std::ostream* stream) {
 }
 
 std::vector<SceneCase> listScenes() {
-    constexpr double kExposure = 1.0 / 30.0;
+    constexpr double kOpenTime = 1.0 / 30.0;
     std::vector<SceneCase> scenes = {
-        {"vase", &generator::buildVaseScene, "main", 0.0, kExposure},
-        {"courtyard", &generator::buildCourtyardScene, "main", 0.2, kExposure},
-        {"courtyard_pan", &generator::buildCourtyardScene, "pan", 0.2, kExposure}};
+        {"vase", &generator::buildVaseScene, "main", 0.0, kOpenTime},
+        {"courtyard", &generator::buildCourtyardScene, "main", 0.2, kOpenTime},
+        {"courtyard_pan", &generator::buildCourtyardScene, "pan", 0.2, kOpenTime}};
     for (const generator::BenchCase& hard : generator::listHardCases())
         if (!hard.movesParticles) // which reveal nothing
             scenes.push_back(

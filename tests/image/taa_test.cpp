@@ -26,8 +26,8 @@ namespace {
 using game::AntiAliasing;
 using Region = std::function<bool(uint32_t x, uint32_t y)>;
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 64;
+constexpr uint32_t kTaaWidth = 96;
+constexpr uint32_t kTaaHeight = 64;
 constexpr double kSeconds = 1.0;
 
 bool isAnywhere(uint32_t, uint32_t) {
@@ -83,8 +83,8 @@ class TaaLaw : public test::GpuTest {
         const image::Image picture = draw(antiAliasing);
         double sum = 0.0;
         size_t count = 0;
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x)
+        for (uint32_t y = 0; y < kTaaHeight; ++y)
+            for (uint32_t x = 0; x < kTaaWidth; ++x)
                 for (uint32_t c = 0; c < 3 && region(x, y); ++c, ++count)
                     sum += std::pow(picture.at(x, y, c) - truth.at(x, y, c), 2.0);
         return std::sqrt(sum / double(count));
@@ -124,7 +124,7 @@ TEST_F(TaaLaw, MoversLeaveNoGhosts) {
     );
     // The part that it covered in the four frames before and does not now.
     const Region isBehind = [](uint32_t x, uint32_t y) {
-        return x < kWidth / 2 - 2 && y > 24 && y < 40;
+        return x < kTaaWidth / 2 - 2 && y > 24 && y < 40;
     };
     EXPECT_LT(
         measureError(AntiAliasing::Taa, isBehind), 0.35 * measureError(AntiAliasing::None, isBehind)
@@ -284,8 +284,8 @@ TEST_F(TaaLens, ABrightPointKeepsItsLight) {
     );
     const auto sumLight = [](const image::Image& picture) {
         double sum = 0.0;
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x)
+        for (uint32_t y = 0; y < kTaaHeight; ++y)
+            for (uint32_t x = 0; x < kTaaWidth; ++x)
                 sum += picture.at(x, y, 0);
         return sum;
     };
@@ -300,11 +300,11 @@ TEST_F(TaaLens, AnEdgeInFocusSpreadsNoneOfItsColorOverWhatIsBehind) {
     );
     addSquare(math::vec3(0.9f), 1.5);
     const image::Image picture = draw(AntiAliasing::Taa);
-    const double half = 0.75 * kHeight / (2.0 * std::tan(0.45) * kFocus);
+    const double half = 0.75 * kTaaHeight / (2.0 * std::tan(0.45) * kFocus);
     double most = 0.0;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            const math::dvec2 from(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
+    for (uint32_t y = 0; y < kTaaHeight; ++y)
+        for (uint32_t x = 0; x < kTaaWidth; ++x) {
+            const math::dvec2 from(x + 0.5 - kTaaWidth / 2.0, y + 0.5 - kTaaHeight / 2.0);
             const math::dvec2 turned(
                 from.x * std::cos(0.2) - from.y * std::sin(0.2),
                 from.x * std::sin(0.2) + from.y * std::cos(0.2)
@@ -332,7 +332,7 @@ class TaaEdge : public TaaLaw {
 
     /// Motion in pixels per frame of surfaces at kDistance.
     void slideCamera(double pixels) {
-        mSpeed = pixels * 24.0 * 2.0 * std::tan(0.45) * kDistance / kHeight;
+        mSpeed = pixels * 24.0 * 2.0 * std::tan(0.45) * kDistance / kTaaHeight;
         mScene.moveCamera({.velocity = {mSpeed, 0, 0}});
     }
 
@@ -475,7 +475,7 @@ TEST_F(TaaEdge, EdgesOfAlphaMasksAreSmooth) {
 }
 
 TEST_F(TaaEdge, EdgesStayInTheirPlaceInThePixelOnAverage) {
-    const double pixelMetres = 2.0 * std::tan(0.45) * kDistance / kHeight;
+    const double pixelMetres = 2.0 * std::tan(0.45) * kDistance / kTaaHeight;
     slideCamera(2.0); // 0.8 pixels in the exposure, at whose end the edge is in the middle
     addWall(math::vec3(0.05f), 9.0);
     const ecs::Entity cover = mScene.add(
@@ -490,9 +490,9 @@ TEST_F(TaaEdge, EdgesStayInTheirPlaceInThePixelOnAverage) {
             mSpeed - 20.0 + place * pixelMetres;
         const image::Image picture = draw(AntiAliasing::Taa);
         double row = 0.0;
-        for (uint32_t x = 16; x < kWidth - 16; ++x)
-            row += (picture.at(x, kHeight / 2, 0) - 0.05) / 0.85;
-        sum += row - (kWidth / 2.0 - 16.0 + place + 0.4);
+        for (uint32_t x = 16; x < kTaaWidth - 16; ++x)
+            row += (picture.at(x, kTaaHeight / 2, 0) - 0.05) / 0.85;
+        sum += row - (kTaaWidth / 2.0 - 16.0 + place + 0.4);
     }
     EXPECT_NEAR(sum / kPlaces, 0.0, 0.04) << "pixels";
 }
@@ -535,8 +535,8 @@ TEST_F(TaaEdge, ASilhouetteOfTheColorBehindItIsNotSeen) {
     for (const std::string_view method : {"sharp", "resolved"}) {
         mMethod = method;
         const image::Image picture = draw(AntiAliasing::Taa);
-        for (uint32_t y = 0; y < kHeight; ++y)
-            for (uint32_t x = 0; x < kWidth; ++x)
+        for (uint32_t y = 0; y < kTaaHeight; ++y)
+            for (uint32_t x = 0; x < kTaaWidth; ++x)
                 for (uint32_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(picture.at(x, y, c), 0.25f * float(c + 1), 1e-3f) << x << ' ' << y;
     }
@@ -549,8 +549,8 @@ TEST_F(TaaEdge, ASilhouetteThatMovesByWholePixelsKeepsItsProfile) {
     mMethod = "resolved";
     const image::Image before = draw(AntiAliasing::Taa);
     const image::Image after = draw(AntiAliasing::Taa, kSeconds + 1.0 / 24.0);
-    for (uint32_t y = 8; y + 8 < kHeight; ++y)
-        for (uint32_t x = 8; x + 8 < kWidth; ++x)
+    for (uint32_t y = 8; y + 8 < kTaaHeight; ++y)
+        for (uint32_t x = 8; x + 8 < kTaaWidth; ++x)
             ASSERT_NEAR(after.at(x - 2, y, 0), before.at(x, y, 0), 0.02f) << x << ' ' << y;
 }
 
@@ -578,7 +578,7 @@ TEST_F(TaaLaw, StaticSurfacesBetweenTurningSpokesKeepTheirMean) {
         mScene.addMesh(std::move(spokes)), {.position = {0, 0, -4}, .angularVelocity = {0, 0, 2.0}}
     );
     const Region isBetween = [](uint32_t x, uint32_t y) {
-        return std::hypot(x - 0.5 * kWidth, y - 0.5 * kHeight) < 0.35 * kHeight;
+        return std::hypot(x - 0.5 * kTaaWidth, y - 0.5 * kTaaHeight) < 0.35 * kTaaHeight;
     };
     EXPECT_LT(
         measureError(AntiAliasing::Taa, isBetween),

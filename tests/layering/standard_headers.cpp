@@ -16,7 +16,7 @@ namespace shutter::layering {
 
 namespace {
 
-struct Row {
+struct HeaderRow {
     std::string_view header;
     std::string_view names; ///< separated by spaces
 };
@@ -24,7 +24,8 @@ struct Row {
 /// Names that this tree uses or is likely to use. Names that several headers declare (begin, hash,
 /// swap of one type) are left out; abs is <cmath>'s, as it is used for floats.
 constexpr std::array kRows = {
-    Row{"algorithm",
+    HeaderRow{
+        "algorithm",
         "all_of any_of none_of for_each find find_if find_if_not find_first_of adjacent_find count "
         "count_if mismatch equal search copy copy_if copy_n copy_backward transform replace "
         "replace_if fill fill_n generate generate_n remove_if unique reverse rotate shuffle sample "
@@ -32,74 +33,80 @@ constexpr std::array kRows = {
         "lower_bound upper_bound equal_range binary_search merge includes set_difference "
         "set_intersection set_union max min minmax min_element max_element minmax_element clamp "
         "lexicographical_compare"},
-    Row{"array", "array to_array"},
-    Row{"atomic", "atomic atomic_flag memory_order_relaxed"},
-    Row{"bit", "bit_cast bit_ceil bit_width countl_zero countr_zero has_single_bit popcount"},
-    Row{"cctype", "isalnum isalpha isdigit isspace tolower toupper"},
-    Row{"charconv", "from_chars to_chars"},
-    Row{"chrono", "chrono"},
-    Row{"cmath",
+    HeaderRow{"array", "array to_array"},
+    HeaderRow{"atomic", "atomic atomic_flag memory_order_relaxed"},
+    HeaderRow{"bit", "bit_cast bit_ceil bit_width countl_zero countr_zero has_single_bit popcount"},
+    HeaderRow{"cctype", "isalnum isalpha isdigit isspace tolower toupper"},
+    HeaderRow{"charconv", "from_chars to_chars"},
+    HeaderRow{"chrono", "chrono"},
+    HeaderRow{
+        "cmath",
         "abs acos asin atan atan2 cbrt ceil copysign cos exp exp2 floor fma fmod frexp hypot ilogb "
         "isfinite isinf isnan ldexp lerp log log10 log2 lround nextafter pow round signbit sin "
         "sqrt tan trunc"},
-    Row{"concepts", "convertible_to derived_from floating_point integral invocable same_as"},
-    Row{"condition_variable", "condition_variable"},
-    Row{"cstddef", "nullptr_t ptrdiff_t"},
-    Row{"cstdint", "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t uintptr_t"},
-    Row{"cstdio", "fclose fflush fgets fopen fprintf fputs fwrite printf snprintf"},
-    Row{"cstdlib", "abort atoi exit getenv strtod system"},
-    Row{"cstring", "memcmp memcpy memmove memset strcmp strerror strlen"},
-    Row{"deque", "deque"},
-    Row{"exception", "current_exception exception exception_ptr terminate"},
-    Row{"filesystem", "filesystem"},
-    Row{"fstream", "fstream ifstream ofstream"},
-    Row{"functional", "function greater invoke less plus ref reference_wrapper"},
-    Row{"future", "async future promise"},
-    Row{"initializer_list", "initializer_list"},
-    Row{"iomanip", "setprecision setw"},
-    Row{"iostream", "cerr cin cout"},
-    Row{"iterator",
+    HeaderRow{"concepts", "convertible_to derived_from floating_point integral invocable same_as"},
+    HeaderRow{"condition_variable", "condition_variable"},
+    HeaderRow{"cstddef", "nullptr_t ptrdiff_t"},
+    HeaderRow{
+        "cstdint", "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t uintptr_t"},
+    HeaderRow{"cstdio", "fclose fflush fgets fopen fprintf fputs fwrite printf snprintf"},
+    HeaderRow{"cstdlib", "abort atoi exit getenv strtod system"},
+    HeaderRow{"cstring", "memcmp memcpy memmove memset strcmp strerror strlen"},
+    HeaderRow{"deque", "deque"},
+    HeaderRow{"exception", "current_exception exception exception_ptr terminate"},
+    HeaderRow{"filesystem", "filesystem"},
+    HeaderRow{"fstream", "fstream ifstream ofstream"},
+    HeaderRow{"functional", "function greater invoke less plus ref reference_wrapper"},
+    HeaderRow{"future", "async future promise"},
+    HeaderRow{"initializer_list", "initializer_list"},
+    HeaderRow{"iomanip", "setprecision setw"},
+    HeaderRow{"iostream", "cerr cin cout"},
+    HeaderRow{
+        "iterator",
         "advance back_inserter distance input_iterator_tag inserter istreambuf_iterator "
         "make_move_iterator next ostream_iterator prev"},
-    Row{"limits", "numeric_limits"},
-    Row{"list", "list"},
-    Row{"map", "map multimap"},
-    Row{"memory", "addressof make_shared make_unique shared_ptr unique_ptr weak_ptr"},
-    Row{"mutex", "call_once lock_guard mutex scoped_lock unique_lock"},
-    Row{"numbers", "numbers"},
-    Row{"numeric", "accumulate gcd inner_product iota lcm midpoint partial_sum reduce"},
-    Row{"optional", "make_optional nullopt optional"},
-    Row{"ostream", "ostream"},
-    Row{"queue", "priority_queue queue"},
-    Row{"random",
+    HeaderRow{"limits", "numeric_limits"},
+    HeaderRow{"list", "list"},
+    HeaderRow{"map", "map multimap"},
+    HeaderRow{"memory", "addressof make_shared make_unique shared_ptr unique_ptr weak_ptr"},
+    HeaderRow{"mutex", "call_once lock_guard mutex scoped_lock unique_lock"},
+    HeaderRow{"numbers", "numbers"},
+    HeaderRow{"numeric", "accumulate gcd inner_product iota lcm midpoint partial_sum reduce"},
+    HeaderRow{"optional", "make_optional nullopt optional"},
+    HeaderRow{"ostream", "ostream"},
+    HeaderRow{"queue", "priority_queue queue"},
+    HeaderRow{
+        "random",
         "minstd_rand mt19937 mt19937_64 normal_distribution uniform_int_distribution "
         "uniform_real_distribution"},
-    Row{"ranges", "ranges views"},
-    Row{"regex", "regex regex_match regex_replace regex_search smatch sregex_iterator"},
-    Row{"set", "multiset set"},
-    Row{"span", "as_bytes as_writable_bytes span"},
-    Row{"sstream", "istringstream ostringstream stringstream"},
-    Row{"stdexcept", "invalid_argument logic_error out_of_range runtime_error"},
-    Row{"string", "getline stod stoi stoul string to_string"},
-    Row{"string_view", "string_view"},
-    Row{"system_error", "errc error_code generic_category system_error"},
-    Row{"thread", "jthread this_thread thread"},
-    Row{"tuple", "make_tuple tie tuple"},
-    Row{"type_traits",
+    HeaderRow{"ranges", "ranges views"},
+    HeaderRow{"regex", "regex regex_match regex_replace regex_search smatch sregex_iterator"},
+    HeaderRow{"set", "multiset set"},
+    HeaderRow{"span", "as_bytes as_writable_bytes span"},
+    HeaderRow{"sstream", "istringstream ostringstream stringstream"},
+    HeaderRow{"stdexcept", "invalid_argument logic_error out_of_range runtime_error"},
+    HeaderRow{"string", "getline stod stoi stoul string to_string"},
+    HeaderRow{"string_view", "string_view"},
+    HeaderRow{"system_error", "errc error_code generic_category system_error"},
+    HeaderRow{"thread", "jthread this_thread thread"},
+    HeaderRow{"tuple", "make_tuple tie tuple"},
+    HeaderRow{
+        "type_traits",
         "conditional_t decay_t enable_if_t invoke_result_t is_const_v is_convertible_v is_enum_v "
         "is_floating_point_v is_integral_v is_same_v is_signed_v is_trivially_copyable_v "
         "make_unsigned_t remove_const_t remove_cvref_t remove_reference_t underlying_type_t"},
-    Row{"unordered_map", "unordered_map"},
-    Row{"unordered_set", "unordered_set"},
-    Row{"utility",
+    HeaderRow{"unordered_map", "unordered_map"},
+    HeaderRow{"unordered_set", "unordered_set"},
+    HeaderRow{
+        "utility",
         "as_const cmp_less declval exchange forward in_range index_sequence make_pair move pair"},
-    Row{"variant", "get_if holds_alternative monostate variant visit"},
-    Row{"vector", "vector"},
+    HeaderRow{"variant", "get_if holds_alternative monostate variant visit"},
+    HeaderRow{"vector", "vector"},
 };
 
 std::map<std::string, std::string, std::less<>> indexRows() {
     std::map<std::string, std::string, std::less<>> headers;
-    for (const Row& row : kRows) {
+    for (const HeaderRow& row : kRows) {
         std::istringstream names{std::string(row.names)};
         for (std::string name; names >> name;)
             headers.emplace(name, row.header);

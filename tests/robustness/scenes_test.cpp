@@ -16,11 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(SHUTTER_SHARED_DIR) / "scenes";
+const fs::path kScenesFolder = fs::path(SHUTTER_SHARED_DIR) / "scenes";
 
 std::vector<fs::path> findScenes() {
     std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kFolder)) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kScenesFolder)) {
         const std::string extension = entry.path().extension().string();
         if (extension == ".gltf" || extension == ".glb")
             found.push_back(entry.path());
@@ -56,7 +56,7 @@ class ListedScene : public testing::TestWithParam<Expectation> {};
 
 TEST_P(ListedScene, EachSceneHasTheTrianglesClipsAndPicturesOfTheReadme) {
     const Expectation& expected = GetParam();
-    const fs::path path = kFolder / expected.file;
+    const fs::path path = kScenesFolder / expected.file;
     if (!fs::exists(path))
         GTEST_SKIP() << path << " is missing";
     const core::Result<LoadedScene> loaded = loadGltf(path);
@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
 );
 
 TEST(Scenes, EveryCorrectSceneLoads) {
-    if (!fs::exists(kFolder))
-        GTEST_SKIP() << kFolder << " is missing";
+    if (!fs::exists(kScenesFolder))
+        GTEST_SKIP() << kScenesFolder << " is missing";
     const std::vector<fs::path> scenes = findScenes();
     ASSERT_GT(scenes.size(), 50u);
     for (const fs::path& path : scenes) {
@@ -108,7 +108,7 @@ class DeformingScene : public testing::TestWithParam<Moving> {};
 
 TEST_P(DeformingScene, EachSceneLoadsWithoutWarningsWithTheContentsOfItsFile) {
     const Moving& expected = GetParam();
-    const fs::path path = kFolder / expected.file;
+    const fs::path path = kScenesFolder / expected.file;
     if (!fs::exists(path))
         GTEST_SKIP() << path << " is missing";
     const core::Result<LoadedScene> loaded = loadGltf(path);

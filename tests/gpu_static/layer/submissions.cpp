@@ -13,12 +13,12 @@ namespace shutter::gpu_static {
 
 namespace {
 
-std::mutex sMutex;
+std::mutex sSubmissionsMutex;
 std::map<VkSemaphore, uint64_t> sValues; // of timelines
 
 VKAPI_ATTR VkResult VKAPI_CALL
 submit(VkQueue, uint32_t count, const VkSubmitInfo2* infos, VkFence) {
-    const std::lock_guard lock(sMutex);
+    const std::lock_guard lock(sSubmissionsMutex);
     for (const VkSubmitInfo2& info : std::span(infos, count))
         for (const VkSemaphoreSubmitInfo& signal :
              std::span(info.pSignalSemaphoreInfos, info.signalSemaphoreInfoCount))
@@ -31,7 +31,7 @@ VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice, const VkSemaphoreWaitInfo*, uint64
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL readCounter(VkDevice, VkSemaphore semaphore, uint64_t* value) {
-    const std::lock_guard lock(sMutex);
+    const std::lock_guard lock(sSubmissionsMutex);
     *value = sValues[semaphore];
     return VK_SUCCESS;
 }

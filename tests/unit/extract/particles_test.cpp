@@ -326,13 +326,13 @@ TEST(ParticleFormulas, TheSeriesOfSmallDragMeetsTheFormulaOfLarge) {
 
 /// Mean of the profile at many instants.
 double measureStreak(const vec2& point, const vec2& way, float radius) {
-    constexpr int kInstants = 4096;
+    constexpr int kManyInstants = 4096;
     double sum = 0.0;
-    for (int i = 0; i < kInstants; ++i) {
-        const vec2 apart = (point - way * ((float(i) + 0.5f) / kInstants)) / radius;
+    for (int i = 0; i < kManyInstants; ++i) {
+        const vec2 apart = (point - way * ((float(i) + 0.5f) / kManyInstants)) / radius;
         sum += double(shader::roundProfile(glm::dot(apart, apart)));
     }
-    return sum / kInstants;
+    return sum / kManyInstants;
 }
 
 TEST(ParticleFormulas, AStreakIsTheMeanOfTheRoundParticleAtAllInstants) {

@@ -21,7 +21,7 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-constexpr uint32_t kSize = 128;
+constexpr uint32_t kLayerSize = 128;
 
 /// A mover that turns about an axis through its middle and goes somewhere.
 struct Way {
@@ -43,14 +43,14 @@ struct MoverBeforeLight {
         caster.sphere = {{1.0, 3.0, -8.0}, 2.0};
         path.swept = {caster.sphere.centre, caster.sphere.radius + 0.5 * glm::length(way.velocity)};
         path.instants = follow(way, count);
-        layers.push_back({dmat4(1.0), fitLayer(toLight, caster.sphere, kSize), kSize, 0});
+        layers.push_back({dmat4(1.0), fitLayer(toLight, caster.sphere, kLayerSize), kLayerSize, 0});
         for (const CasterInstant& part : follow(way, parts)) {
             const dvec3 seen(seeLight(part.rasterFromInstant, LightPlace(toLight, 0.0)));
             layers.push_back(
                 {part.rasterFromInstant,
-                 fitLayer(seen, caster.sphere, kSize),
-                 kSize,
-                 uint32_t(layers.size()) * kSize * kSize}
+                 fitLayer(seen, caster.sphere, kLayerSize),
+                 kLayerSize,
+                 uint32_t(layers.size()) * kLayerSize * kLayerSize}
             );
         }
     }
@@ -129,7 +129,7 @@ TEST_F(ShadowRuns, RunsMapPointsToTheirPlaceAtEachInstant) {
             const dvec3 found = apply(run.first, run.step, instant % length, point - eye);
             ASSERT_LT(std::abs(found.x - wanted.x), kMaxRunError + 0.01) << i << ": " << length;
             ASSERT_LT(std::abs(found.y - wanted.y), kMaxRunError + 0.01) << i << ": " << length;
-            ASSERT_LT(std::abs(found.z - wanted.z) * kSize, kMaxRunError + 0.01) << i;
+            ASSERT_LT(std::abs(found.z - wanted.z) * kLayerSize, kMaxRunError + 0.01) << i;
         }
     }
     for (const uint32_t length : {1u, 2u, 4u})
@@ -143,8 +143,8 @@ TEST_F(ShadowRuns, RunsBeginWithTheRasterInstants) {
     const dvec3 point = mover.caster.sphere.centre + dvec3(0.3, -0.2, 0.5);
     const dvec4 clip = mover.layers.front().view.clipFromWorld * dvec4(point, 1.0);
     const dvec3 found = apply(run.first, run.step, 0, point);
-    EXPECT_NEAR(found.x, (0.5 * clip.x + 0.5) * kSize, 1e-3);
-    EXPECT_NEAR(found.y, (0.5 * clip.y + 0.5) * kSize, 1e-3);
+    EXPECT_NEAR(found.x, (0.5 * clip.x + 0.5) * kLayerSize, 1e-3);
+    EXPECT_NEAR(found.y, (0.5 * clip.y + 0.5) * kLayerSize, 1e-3);
     EXPECT_NEAR(found.z, clip.z, 1e-5);
     const double scaled = clip.z * (1.0 + double(shader::kDepthScaleRounding));
     EXPECT_GT(found.z, scaled + 0.5 * double(shader::kDepthRounding)) << "without a bias";
@@ -167,13 +167,13 @@ TEST_F(ShadowRuns, RunsAreAsShortAsTheMoversLayers) {
     const auto runs = mover.runs();
     ASSERT_EQ(runs.size(), 9u);
     for (uint32_t i = 1; i < runs.size(); ++i)
-        EXPECT_EQ(runs[i].firstTexel, i * kSize * kSize);
+        EXPECT_EQ(runs[i].firstTexel, i * kLayerSize * kLayerSize);
     // The layer of a run is that of its middle.
     const auto uneven = MoverBeforeLight(straight, direction(), 16, 3).runs();
     ASSERT_EQ(uneven.size(), 5u);
     const std::array<uint32_t, 5> wanted{0, 1, 2, 2, 3};
     for (uint32_t i = 1; i < uneven.size(); ++i)
-        EXPECT_EQ(uneven[i].firstTexel / (kSize * kSize), wanted[i]);
+        EXPECT_EQ(uneven[i].firstTexel / (kLayerSize * kLayerSize), wanted[i]);
 }
 
 TEST_F(ShadowRuns, RunsCoverAllInstantsReadAtATime) {
@@ -215,7 +215,7 @@ TEST_F(ShadowRuns, ASlopeIsExactOnAPlane) {
 dvec3 lookUp(
     const ShadowCaster& caster, const dmat4& turn, const dvec3& toLight, const dvec3& point
 ) {
-    const MoverLayer layer{dmat4(1.0), fitLayer(toLight, caster.sphere, kSize), kSize, 0};
+    const MoverLayer layer{dmat4(1.0), fitLayer(toLight, caster.sphere, kLayerSize), kLayerSize, 0};
     const dmat4 own = mapToLayer(caster, dmat4(1.0), toLight, layer);
     return dvec3(glm::inverse(own) * mapToLayer(caster, turn, toLight, layer) * dvec4(point, 1.0));
 }

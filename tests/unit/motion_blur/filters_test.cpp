@@ -93,19 +93,19 @@ TEST(Weights, TheCentreCountsOneOverItsSpeedButAStillOneIsBounded) {
 }
 
 TEST(Weights, TheNoiseIsSpreadEvenlyOverZeroToOne) {
-    constexpr int kSide = 64;
+    constexpr int kGrid = 64;
     std::vector<int> histogram(8, 0);
     double sum = 0.0;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kGrid; ++y)
+        for (int x = 0; x < kGrid; ++x) {
             const float noise = interleavedGradientNoise(vec2(float(x), float(y)) + 0.5f);
             ASSERT_TRUE(noise >= 0.0f && noise < 1.0f);
             sum += double(noise);
             ++histogram[size_t(noise * 8.0f)];
         }
-    EXPECT_NEAR(sum / (kSide * kSide), 0.5, 0.01);
+    EXPECT_NEAR(sum / (kGrid * kGrid), 0.5, 0.01);
     for (const int count : histogram)
-        EXPECT_NEAR(count, kSide * kSide / 8, kSide * kSide / 80);
+        EXPECT_NEAR(count, kGrid * kGrid / 8, kGrid * kGrid / 80);
 }
 
 TEST(Weights, AmongEquallyLongMotionsTheOrderDoesNotMatter) {

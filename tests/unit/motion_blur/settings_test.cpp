@@ -44,7 +44,7 @@ TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
 }
 
 TEST(MotionBlurSettings, UnsetFieldsAreTheDefaultMethodAndItsSamples) {
-    EXPECT_TRUE(validate({}).ok());
+    EXPECT_TRUE(validate(MotionBlurSettings{}).ok());
     EXPECT_EQ(complete({}).method, &getMethod("resolved"));
     for (const Method* method : listMethods()) {
         EXPECT_EQ(complete({.method = method}).sampleCount, method->defaultSamples);

@@ -10,12 +10,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace shutter::game {
 
 using Words = std::vector<std::string>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class T> [[nodiscard]] std::string wordOf(const T& value) {
     return fmt::format("{}", value);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -17,9 +16,6 @@ namespace shutter::game {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class RenderOptionsTest : public testing::Test {
   protected:
@@ -147,6 +143,24 @@ TEST_F(RenderOptionsTest, ASequenceOfExrTakesATimeCodeAndOtherPicturesNone) {
     refuse("--timecode", pictures("f_%d.exr", "--timecode=1:0:0:0"));
     refuse("a sequence of EXR", pictures("f_%d.png", "--timecode=frame"));
     refuse("a sequence of EXR", Words{"--out=" + (mFolder / "f.exr").string(), "--timecode=frame"});
+}
+
+TEST_F(RenderOptionsTest, AValueThatIsNoNumberOrNoneOfAListIsRefused) {
+    for (const std::string option :
+         {"--time",
+          "--fps",
+          "--exposure",
+          "--shutter-angle",
+          "--samples",
+          "--seed",
+          "--ev",
+          "--repeat"})
+        refuse(option, Words{option + "=1x"});
+    for (const std::string option : {"--pixel", "--rays", "--aov", "--background"})
+        refuse(option, Words{option + "=nosuch"});
+    for (const char* samples : {"-1", "0", "257", "99999999999"})
+        refuse("--samples", Words{std::string("--samples=") + samples});
+    refuse("--repeat", Words{"--repeat=0"});
 }
 
 TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
@@ -331,11 +345,7 @@ TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
     };
     EXPECT_EQ(accept(truth(0.01)).method.error, 0.01);
     EXPECT_FALSE(accept(Words{"--method=truth"}).method.error.has_value());
-    for (const double bad :
-         {0.0,
-          -1.0,
-          std::numeric_limits<double>::quiet_NaN(),
-          std::numeric_limits<double>::infinity()})
+    for (const double bad : {0.0, -1.0, kNan, kInfinity})
         refuse("--error", truth(bad));
     for (const char* method : {"sharp", "hybrid", "accumulate"})
         refuse("--error", Words{"--method=" + wordOf(method), "--error=0.01"});

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,8 +17,6 @@ using scene::CameraShutter;
 using scene::ResponseShape;
 using scene::ShutterMode;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFrame = 1.0 / 25.0;
 
 core::Result<CameraShutter> parse(const Words& words) {

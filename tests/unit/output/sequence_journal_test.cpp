@@ -192,7 +192,7 @@ TEST_F(JournalOfASequence, UnreadableOrUnwritableJournalsAreNamed) {
     EXPECT_NE(gone.error().message.find(".f_%04d.png.journal"), std::string::npos);
 }
 
-TEST(JournalFile, TheJournalIsAHiddenFileNextToThePictures) {
+TEST(SequenceJournalFile, TheJournalIsAHiddenFileNextToThePictures) {
     EXPECT_EQ(journalFile("f_%04d.png"), ".f_%04d.png.journal");
     EXPECT_EQ(journalFile("out/f_%04d.png"), "out/.f_%04d.png.journal");
     EXPECT_EQ(journalFile("/a/b/f_%d.exr"), "/a/b/.f_%d.exr.journal");

@@ -18,8 +18,8 @@ namespace {
 
 using math::dvec3;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kQuietNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kPlusInfinity = std::numeric_limits<float>::infinity();
 constexpr vec2 kPictureSize{200.0f, 100.0f};
 
 TEST(Motion, TheMiddleOfClipSpaceIsTheMiddleOfThePicture) {
@@ -83,7 +83,7 @@ TEST(Motion, MotionIsClampedToTheStorableLengthInItsDirection) {
 
 TEST(Motion, NonFiniteMotionCountsAsStatic) {
     const vec3 clip(0.1f, 0.2f, 1.0f);
-    for (const float bad : {kNan, kInfinity, -kInfinity}) {
+    for (const float bad : {kQuietNan, kPlusInfinity, -kPlusInfinity}) {
         EXPECT_EQ(
             motionFromClip(vec3(bad, 0.0f, 1.0f), clip, clip, 0.1f, kPictureSize), vec2(0.0f)
         );
@@ -91,7 +91,9 @@ TEST(Motion, NonFiniteMotionCountsAsStatic) {
             motionFromClip(clip, vec3(0.0f, bad, 1.0f), clip, 0.1f, kPictureSize), vec2(0.0f)
         );
     }
-    EXPECT_EQ(motionFromClip(vec3(0.0f, 0.0f, kNan), clip, clip, 0.1f, kPictureSize), vec2(0.0f));
+    EXPECT_EQ(
+        motionFromClip(vec3(0.0f, 0.0f, kQuietNan), clip, clip, 0.1f, kPictureSize), vec2(0.0f)
+    );
 }
 
 class Random {
@@ -181,11 +183,11 @@ TEST(RayTriangle, DegenerateTrianglesAreNotHit) {
     const vec3 ahead(0, 0, -1);
     EXPECT_TRUE(intersectTriangle(vec3(0), ahead, a, b, c).found);
     EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0), a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(kNan, 0, -1), a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0, 0, -kInfinity), a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(kNan), ahead, a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(kNan)).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(0, kInfinity, -2)).found);
+    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(kQuietNan, 0, -1), a, b, c).found);
+    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0, 0, -kPlusInfinity), a, b, c).found);
+    EXPECT_FALSE(intersectTriangle(vec3(kQuietNan), ahead, a, b, c).found);
+    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(kQuietNan)).found);
+    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(0, kPlusInfinity, -2)).found);
     EXPECT_FALSE(intersectTriangle(vec3(0), ahead, c, c, c).found);
     EXPECT_FALSE(intersectTriangle(vec3(0, -1, 0), ahead, a, b, b).found);
     // In the plane of the ray.
@@ -198,8 +200,8 @@ TEST(Numeric, SaturateCutsBothEndsOff) {
     EXPECT_EQ(saturate(-1.0f), 0.0f);
     EXPECT_EQ(saturate(0.25f), 0.25f);
     EXPECT_EQ(saturate(7.0f), 1.0f);
-    EXPECT_EQ(saturate(kInfinity), 1.0f);
-    EXPECT_EQ(saturate(-kInfinity), 0.0f);
+    EXPECT_EQ(saturate(kPlusInfinity), 1.0f);
+    EXPECT_EQ(saturate(-kPlusInfinity), 0.0f);
 }
 
 TEST(Numeric, LuminanceIsRec709sAndOneForWhite) {
@@ -210,12 +212,12 @@ TEST(Numeric, LuminanceIsRec709sAndOneForWhite) {
 }
 
 TEST(Numeric, NanAndInfinityAreNotFinite) {
-    EXPECT_FALSE(isFinite(kNan));
-    EXPECT_FALSE(isFinite(kInfinity));
-    EXPECT_FALSE(isFinite(-kInfinity));
+    EXPECT_FALSE(isFinite(kQuietNan));
+    EXPECT_FALSE(isFinite(kPlusInfinity));
+    EXPECT_FALSE(isFinite(-kPlusInfinity));
     EXPECT_TRUE(isFinite(0.0f));
     EXPECT_TRUE(isFinite(-3.4e38f));
-    EXPECT_FALSE(isFinite(-kNan));
+    EXPECT_FALSE(isFinite(-kQuietNan));
     EXPECT_TRUE(isFinite(std::numeric_limits<float>::denorm_min()));
     EXPECT_TRUE(isFinite(std::numeric_limits<float>::max()));
     EXPECT_TRUE(isFinite(std::numeric_limits<float>::lowest()));
@@ -225,7 +227,7 @@ TEST(Numeric, OnlyNanIsNotANumber) {
     // Quiet and signalling, of either sign, with the smallest and the largest payload.
     for (const uint bits : {0x7FC00000u, 0x7F800001u, 0x7FFFFFFFu, 0xFFC00000u, 0xFF800001u})
         EXPECT_TRUE(isNotANumber(uintBitsToFloat(bits))) << std::hex << bits;
-    for (const float x : {0.0f, -0.0f, 1.0f, std::numeric_limits<float>::max(), kInfinity})
+    for (const float x : {0.0f, -0.0f, 1.0f, std::numeric_limits<float>::max(), kPlusInfinity})
         EXPECT_FALSE(isNotANumber(x) || isNotANumber(-x)) << x;
 }
 
@@ -234,10 +236,12 @@ TEST(Numeric, AStorableColourStaysAsItIs) {
 }
 
 TEST(Numeric, EachChannelThatNoHalfFloatCanHoldIsReplacedAlone) {
-    EXPECT_EQ(storableColor(vec3(kNan, 1.0f, 2.0f)), vec3(0.0f, 1.0f, 2.0f));
-    EXPECT_EQ(storableColor(vec3(1.0f, kNan, 2.0f)), vec3(1.0f, 0.0f, 2.0f));
-    EXPECT_EQ(storableColor(vec3(1.0f, 2.0f, kNan)), vec3(1.0f, 2.0f, 0.0f));
-    EXPECT_EQ(storableColor(vec3(kInfinity, -kInfinity, -1.0f)), vec3(kMaxColor, 0.0f, 0.0f));
+    EXPECT_EQ(storableColor(vec3(kQuietNan, 1.0f, 2.0f)), vec3(0.0f, 1.0f, 2.0f));
+    EXPECT_EQ(storableColor(vec3(1.0f, kQuietNan, 2.0f)), vec3(1.0f, 0.0f, 2.0f));
+    EXPECT_EQ(storableColor(vec3(1.0f, 2.0f, kQuietNan)), vec3(1.0f, 2.0f, 0.0f));
+    EXPECT_EQ(
+        storableColor(vec3(kPlusInfinity, -kPlusInfinity, -1.0f)), vec3(kMaxColor, 0.0f, 0.0f)
+    );
     EXPECT_LT(kMaxColor, 65504.0f); // the largest half float
 }
 
