@@ -31,23 +31,27 @@ TEST_F(Cli, AnOptionThatIsGivenTwiceIsRefused) {
 }
 
 TEST_F(Cli, AValueThatAnOptionDoesNotTakeIsRefusedByName) {
-    const std::vector<std::pair<std::string, std::string>> bad = {
-        {"--size", "99999x1"},
-        {"--time", "1x"},
-        {"--samples", ""},
-        {"--samples", "257"},
-        {"--exposure", "nan"},
-        {"--background", "-1,0,0"},
-        {"--method", "nosuch"},
-        {"--aov", "motion,nosuch"},
-        {"--frames", "nosuch"},
-        {"--set", "nosuch=1"},
-        {"--set", "edgeThreshold=1"}}; // another method's
-    for (const auto& [option, value] : bad)
+    struct Bad {
+        const char* option;
+        const char* value;
+        const char* mention;
+    };
+
+    for (const Bad& bad :
+         {Bad{"--time", "1x", "1x"},
+          Bad{"--samples", "", ""},
+          Bad{"--samples", "257", "257"},
+          Bad{"--exposure", "nan", "nan"},
+          Bad{"--background", "-1,0,0", "-1,0,0"},
+          Bad{"--method", "nosuch", "nosuch"},
+          Bad{"--aov", "motion,nosuch", "nosuch"},
+          Bad{"--frames", "nosuch", "nosuch"},
+          Bad{"--set", "nosuch=1", "nosuch"},
+          Bad{"--set", "edgeThreshold=1", "edgeThreshold"}}) // another method's
         expectRefusal(
-            renderVase({"--out", "a.png", fmt::format("{}={}", option, value)}),
+            renderVase({"--out", "a.png", fmt::format("{}={}", bad.option, bad.value)}),
             kUsage,
-            {option, value}
+            {bad.option, bad.mention}
         );
 }
 
