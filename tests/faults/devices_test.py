@@ -112,7 +112,8 @@ class Devices(FaultCase):
         ):
             with self.subTest(limit=limit):
                 self.expect_refusal(
-                    self.render("--out", "a.png", size=size), {"limits": limit}, *mentions)
+                    self.render("--out", "a.png", size=size, method="adaptive"),
+                    {"limits": limit}, *mentions)
 
     def test_without_a_driver_each_command_names_the_package(self):
         nowhere = {"VK_DRIVER_FILES": str(self.folder / "none.json"), "VK_ICD_FILENAMES": ""}
