@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPROGRAM=file -DLABEL=label -DRESULTS=folder -DOUTPUT=file -P ListSuites.cmake
+# cmake -DPROGRAM=file -DLABEL=label -DRESULTS=folder -DCOST=[number] -DOUTPUT=file -P ListSuites.cmake
 # Writes for ctest a test for each suite of a program of GoogleTest: "<label>/<suite>". A process for
 # each of its cases would open the device, load libraries and compile shaders once more for each.
 execute_process(
@@ -14,13 +14,16 @@ set(suite "")
 set(cases 0)
 macro(end_suite)
     if(cases GREATER 0)
+        set(cost ${cases})
+        if(COST)
+            set(cost ${COST})
+        endif()
         string(REPLACE "/" "." file "${suite}")
         string(APPEND tests
                "add_test([[${LABEL}/${suite}]] [[${PROGRAM}]] [[--gtest_filter=${suite}.*]] --gtest_brief=1"
                " [[--gtest_output=xml:${RESULTS}/${LABEL}/${file}.xml]])\n"
-               # The largest start first.
-               "set_tests_properties([[${LABEL}/${suite}]] PROPERTIES LABELS ${LABEL} TIMEOUT 1200"
-               " COST ${cases})\n")
+               "set_tests_properties([[${LABEL}/${suite}]] PROPERTIES LABELS ${LABEL} TIMEOUT 1800"
+               " COST ${cost})\n")
     endif()
 endmacro()
 foreach(line IN LISTS lines)
