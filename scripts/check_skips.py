@@ -111,11 +111,12 @@ def read_results(results, folder):
         for case in read_cases(path):
             suite = f"{path.parent.name}/{case.get('classname')}"
             suites.setdefault(suite, []).append(case)
-    tests, skipped = [], []
+    tests, skipped, names = [], [], set()
     for test in read_cases(results):
         name = test.get("name")
-        if tests.count(name):
-            sys.exit(f"check_skips: two tests have the name {name}")
+        if name in names:
+            sys.exit(f"check_skips: {results}: two tests have the name {name}")
+        names.add(name)
         for case in suites.get(name, ()):
             tests.append(f"{name}.{case.get('name')}")
             if case.get("result") in ("skipped", "suppressed"):
