@@ -7,7 +7,6 @@ import pathlib
 import re
 import tempfile
 import unittest
-import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Hidden folders and build trees hold files of others.
@@ -110,58 +109,38 @@ class TheTree(unittest.TestCase):
         self.assertEqual(set(), pages - linked)
 
 
-class ASmallTree(unittest.TestCase):
+class SmallTree(unittest.TestCase):
+    """A tree of some pages in a folder of its own."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name).resolve()
-        self.write("docs/page.md", "# A page (of `two`), and more\n\n## Same\n\n## Same\n")
 
     def write(self, path, text):
         (self.root / path).parent.mkdir(parents=True, exist_ok=True)
         (self.root / path).write_text(text, encoding="utf-8")
 
-    def faults_of(self, text):
-        self.write("README.md", text)
-        return list_faults(self.root)
 
-    def test_links_to_files_folders_headings_and_other_sites_are_right(self):
-        self.assertEqual([], self.faults_of(
-            "# Top\n[a](docs/page.md) [b](docs) [c](#top) [d](docs/page.md#same-1)\n"
-            "[e](docs/page.md#a-page-of-two-and-more) [f](https://example.org/none.md)\n"))
-
-    def test_a_link_to_no_file_is_a_fault_with_its_place(self):
-        self.assertEqual(["README.md:2: link docs/none.md leads to no file"],
-                         self.faults_of("\n[a](docs/none.md)\n"))
-
-    def test_a_picture_that_is_missing_is_a_fault(self):
-        self.assertEqual(1, len(self.faults_of("![a](docs/none.png)\n")))
-
-    def test_a_link_to_no_heading_is_a_fault(self):
-        self.assertEqual(2, len(self.faults_of("[a](docs/page.md#same-2) [b](#none)\n")))
-
-    def test_a_link_out_of_the_tree_is_a_fault(self):
-        self.assertEqual(1, len(self.faults_of("[a](../none.md)\n")))
-
-    def test_a_path_in_code_that_does_not_exist_is_a_fault(self):
-        self.assertEqual(["README.md:1: there is no docs/none.md"],
-                         self.faults_of("`docs/page.md`, `docs/none.md`, `docs/*.md`, `none/a`, "
-                                        "`docs/NAME.md`\n"))
-
-    def test_code_blocks_and_links_in_code_are_passed_over(self):
-        self.assertEqual([], self.faults_of("```\n[a](none.md)\n```\n`[a](none.md)`\n"))
-
-    def test_hidden_folders_and_build_trees_are_passed_over(self):
+class BrokenLinks(SmallTree):
+    def test_each_broken_link_and_path_is_a_fault_and_nothing_else_is(self):
+        self.write("docs/page.md", "# A page (of `two`), and more\n\n## Same\n\n## Same\n")
         for folder in (".git", "build/release"):
             self.write(f"{folder}/page.md", "[a](none.md)\n")
-        list_folder = os.scandir
-
-        def list_folder_of_tree(path):
-            self.assertNotIn("build", pathlib.Path(path).parts)
-            return list_folder(path)
-
-        with unittest.mock.patch("os.scandir", list_folder_of_tree):
-            self.assertEqual([], self.faults_of(""))
+        for text, *faults in (
+            ("# Top\n[a](docs/page.md) [b](docs) [c](#top) [d](docs/page.md#same-1)\n"
+             "[e](docs/page.md#a-page-of-two-and-more) [f](https://example.org/none.md)\n",),
+            ("```\n[a](none.md)\n```\n`[a](none.md)`\n",),
+            ("\n[a](docs/none.md)\n", "2: link docs/none.md leads to no file"),
+            ("![a](docs/none.png)\n", "1: link docs/none.png leads to no file"),
+            ("[a](docs/page.md#same-2)\n", "1: link docs/page.md#same-2 names no heading of page.md"),
+            ("[a](../none.md)\n", "1: link ../none.md leads out of the tree"),
+            ("`docs/page.md`, `docs/none.md`, `docs/*.md`, `none/a`, `docs/NAME.md`\n",
+             "1: there is no docs/none.md"),
+        ):
+            with self.subTest(text=text):
+                self.write("README.md", text)
+                self.assertEqual([f"README.md:{fault}" for fault in faults], list_faults(self.root))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ docs are few and short."""
 
 import pathlib
 import re
-import tempfile
 import unittest
 
 import links_test
@@ -243,90 +242,68 @@ PSNR, dB:
 """
 
 
-class ASmallTree(unittest.TestCase):
+class Claims(links_test.SmallTree):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name).resolve()
+        super().setUp()
         self.write("docs/figures.md", FIGURES)
 
-    def write(self, path, text):
-        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
-        (self.root / path).write_text(text, encoding="utf-8")
-
-    def claims_of(self, text):
-        self.write("README.md", text)
-        return list_false_claims(self.root)
-
-    def test_a_number_in_a_link_is_in_the_section_that_it_leads_to(self):
-        self.assertEqual([], self.claims_of("It has [43.86 dB](docs/figures.md#suite-edges).\n"))
-        self.assertEqual(["README.md:1: no table of figures.md#suite-edges has 43.85"],
-                         self.claims_of("It has [43.85 dB](docs/figures.md#suite-edges).\n"))
-        self.assertEqual(1, len(self.claims_of("[43.86](docs/figures.md#suite-paper)\n")))
-
-    def test_a_link_over_two_lines_is_checked(self):
-        self.assertEqual(["README.md:3: no table of figures.md has 43.85"],
-                         self.claims_of("```\n```\nIt has [43.85\ndB](docs/figures.md).\n"))
-
-    def test_a_number_may_be_rounded_but_not_otherwise(self):
-        self.assertEqual([], self.claims_of("[43.9](docs/figures.md), [44](docs/figures.md)\n"))
-        self.assertEqual(2, len(self.claims_of("[43.8](docs/figures.md), [43](docs/figures.md)\n")))
-
-    def test_words_in_code_of_a_link_name_row_and_column(self):
-        self.assertEqual([], self.claims_of("[`vase`, `taa`: 43.9 dB](docs/figures.md)\n"))
-        self.assertEqual([], self.claims_of("[`vase`, `sharp`: 25.9 dB](docs/figures.md)\n"))
-        self.assertEqual(["README.md:1: no table of figures.md has 43.9 of courtyard, taa"],
-                         self.claims_of("[`courtyard`, `taa`: 43.9 dB](docs/figures.md)\n"))
-
-    def test_thousands_are_read(self):
-        self.assertEqual([], self.claims_of("[1,285](docs/figures.md) [1286](docs/figures.md)\n"))
-
-    def test_a_table_from_other_tables_has_their_numbers(self):
+    def test_each_number_that_is_not_where_it_links_to_is_a_fault(self):
         table = ("From [figures](docs/figures.md#suite-edges),\nin dB:\n\n"
                  "| shot | `sharp` | `resolved` |\n|---|---|---|\n")
-        self.assertEqual([], self.claims_of(table + "| `vase`, 5 % moves | 24.3 | **43.9** |\n"))
-        self.assertEqual(["README.md:6: no table of figures.md#suite-edges has 24.3 of courtyard, sharp"],
-                         self.claims_of(table + "| `courtyard` | 24.3 | |\n"))
-        self.assertEqual(1, len(self.claims_of(table + "| `vase` | 24.3 (24.4) | 43.9 |\n")))
-
-    def test_other_tables_and_links_claim_nothing(self):
-        self.assertEqual([], self.claims_of(
-            "[12 pages](https://example.org) and [`A7`](docs/figures.md)\n\nOwn:\n\n"
-            "| shot | `sharp` |\n|---|---|\n| `vase` | 1.0 |\n"))
-
-    def list_of(self, text, listed):
-        self.write("README.md", text)
-        self.write("docs/measuring.md", f"# Measuring\n\n## Numbers\n\n{listed}\n\n## Other\n\n[a](../README.md)\n")
-        return list_unlisted(self.root)
-
-    def test_a_page_that_quotes_measurements_is_listed(self):
-        listed = "| `shutter bench` | [figures](figures.md), [README](../README.md) |"
-        for text in ("It gains 3 dB.\n", "It takes 0.31 ms.\n", "It takes 1.3 times as long.\n",
-                     "| a | PSNR, dB |\n|---|---|\n| b | 1 |\n"):
+        for text, *faults in (
+            ("It has [43.86 dB](docs/figures.md#suite-edges).\n",),
+            ("It has [43.85 dB](docs/figures.md#suite-edges).\n",
+             "1: no table of figures.md#suite-edges has 43.85"),
+            ("[43.86](docs/figures.md#suite-paper)\n", "1: no table of figures.md#suite-paper has 43.86"),
+            # Over two lines, and below a block of code.
+            ("```\n```\nIt has [43.85\ndB](docs/figures.md).\n", "3: no table of figures.md has 43.85"),
+            # Rounded, and with a sign of thousands.
+            ("[43.9](docs/figures.md) [44](docs/figures.md) [1,285](docs/figures.md) [1286](docs/figures.md)",),
+            ("[43.8](docs/figures.md)", "1: no table of figures.md has 43.8"),
+            # Words in code name row and column.
+            ("[`vase`, `taa`: 43.9 dB](docs/figures.md) [`vase`, `sharp`: 25.9 dB](docs/figures.md)\n",),
+            ("[`courtyard`, `taa`: 43.9 dB](docs/figures.md)\n",
+             "1: no table of figures.md has 43.9 of courtyard, taa"),
+            # Tables that say where their numbers are from, and others.
+            (table + "| `vase`, 5 % moves | 24.3 | **43.9** |\n",),
+            (table + "| `courtyard` | 24.3 | |\n",
+             "6: no table of figures.md#suite-edges has 24.3 of courtyard, sharp"),
+            (table + "| `vase` | 24.3 (24.4) | 43.9 |\n",
+             "6: no table of figures.md#suite-edges has 24.4 of sharp, vase"),
+            ("[12 pages](https://example.org) and [`A7`](docs/figures.md)\n\nOwn:\n\n"
+             "| shot | `sharp` |\n|---|---|\n| `vase` | 1.0 |\n",),
+        ):
             with self.subTest(text=text):
-                self.assertEqual([], self.list_of(text, listed))
-                self.assertEqual(["README.md has no link in docs/measuring.md#numbers"],
-                                 self.list_of(text, "[figures](figures.md)"))
+                self.write("README.md", text)
+                self.assertEqual([f"README.md:{fault}" for fault in faults], list_false_claims(self.root))
 
-    def test_a_page_that_quotes_none_is_not_listed(self):
-        listed = "[figures](figures.md)"
-        self.assertEqual([], self.list_of("`--budget 2`: ms of a frame\n", listed))
-        self.assertEqual(["README.md quotes nothing that was measured, but is in docs/measuring.md#numbers"],
-                         self.list_of("Nothing.\n", listed + " [README](../README.md)"))
+    def test_pages_that_quote_measurements_and_no_others_are_in_the_list(self):
+        both = "| `shutter bench` | [figures](figures.md), [README](../README.md) |"
+        unlisted = ["README.md has no link in docs/measuring.md#numbers"]
+        needless = ["README.md quotes nothing that was measured, but is in docs/measuring.md#numbers"]
+        for text, is_measured_text in (
+            ("It gains 3 dB.\n", True),
+            ("It takes 0.31 ms.\n", True),
+            ("It takes 1.3 times as long.\n", True),
+            ("| a | PSNR, dB |\n|---|---|\n| b | 1 |\n", True),
+            ("`--budget 2`: ms of a frame\n", False),
+        ):
+            self.write("README.md", text)
+            for listed, faults in ((both, [] if is_measured_text else needless),
+                                   ("[figures](figures.md)", unlisted if is_measured_text else [])):
+                with self.subTest(text=text, listed=listed):
+                    self.write("docs/measuring.md",
+                               f"# Measuring\n\n## Numbers\n\n{listed}\n\n## Other\n\n[a](../README.md)\n")
+                    self.assertEqual(faults, list_unlisted(self.root))
 
-    def test_a_long_page_is_a_fault_and_a_generated_one_is_not(self):
+    def test_a_long_page_that_is_not_generated_and_an_eleventh_page_are_faults(self):
         self.write("docs/figures.md", "\n" * 500)
-        self.write("docs/page.md", "\n" * 120)
-        self.assertEqual([], list_long_pages(self.root))
-        self.write("docs/page.md", "\n" * 121)
-        self.assertEqual(["docs/page.md has 121 lines, more than 120"], list_long_pages(self.root))
-
-    def test_an_eleventh_page_is_a_fault(self):
         for i in range(9):
-            self.write(f"docs/page{i}.md", "")
+            self.write(f"docs/page{i}.md", "\n" * 120)
         self.assertEqual([], list_long_pages(self.root))
-        self.write("docs/folder/page.md", "")
-        self.assertEqual(["docs has 11 pages, more than 10"], list_long_pages(self.root))
+        self.write("docs/folder/page.md", "\n" * 121)
+        self.assertEqual(["docs has 11 pages, more than 10",
+                          "docs/folder/page.md has 121 lines, more than 120"], list_long_pages(self.root))
 
 
 if __name__ == "__main__":
