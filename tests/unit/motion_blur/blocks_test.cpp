@@ -23,31 +23,22 @@ constexpr float kSoft = 0.03f;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-TEST(BlockClass, BelowHalfAPixelATileIsStillWhateverElseItIs) {
-    for (const float deviation : {0.0f, 0.4f, 1e9f, kNan})
-        for (const float depth : {0.0f, 1e9f})
-            EXPECT_EQ(classifyTile(0.49f, deviation, depth, 0.5f, kSoft), kClassStill);
-}
-
-TEST(BlockClass, UniformIsWithinHalfAPixelAndASixteenthOfTheMotion) {
+TEST(BlockClass, ATilesClassFollowsFromItsMotionItsDeviationAndItsDepths) {
     EXPECT_EQ(classifyTile(40.0f, 0.5f, 1e9f, 0.5f, kSoft), kClassUniform);
     EXPECT_EQ(classifyTile(40.0f, 0.51f, 1e9f, 0.5f, kSoft), kClassDeep);
     EXPECT_EQ(classifyTile(1.6f, 0.1f, 1e9f, 0.5f, kSoft), kClassUniform);
     EXPECT_EQ(classifyTile(1.6f, 0.11f, 1e9f, 0.5f, kSoft), kClassDeep);
-}
-
-TEST(BlockClass, ZeroTurnsUniformMotionOff) {
+    for (const float deviation : {0.0f, 0.4f, 1e9f, kNan})
+        for (const float depth : {0.0f, 1e9f})
+            EXPECT_EQ(classifyTile(0.49f, deviation, depth, 0.5f, kSoft), kClassStill);
     EXPECT_EQ(classifyTile(40.0f, 0.0f, 1e9f, 0.0f, kSoft), kClassDeep);
-}
-
-TEST(BlockClass, ADeviationThatIsNoNumberIsNotUniform) {
     EXPECT_EQ(classifyTile(40.0f, kNan, 1e9f, 0.5f, kSoft), kClassDeep);
     EXPECT_EQ(classifyTile(40.0f, kInfinity, 1e9f, 0.5f, kSoft), kClassDeep);
-}
-
-TEST(BlockClass, NothingCanBeRevealedWhereDepthsDifferByNoMoreThanTheSoftExtent) {
     EXPECT_EQ(classifyTile(40.0f, 9.0f, kSoft, 0.5f, kSoft), kClassMixed);
     EXPECT_EQ(classifyTile(40.0f, 9.0f, 1.01f * kSoft, 0.5f, kSoft), kClassDeep);
+    // All moves by 100 px: taps go 40 px far, but weights are of 100.
+    EXPECT_GE(tileSpread({100, 0}, {100, 0}, 100.0f, 40.0f), 60.0f);
+    EXPECT_EQ(tileSpread({30, 0}, {30, 0}, 30.0f, 40.0f), 0.0f);
 }
 
 TEST(BlockClass, TheSpreadBoundsEveryMotionsDistanceFromTheLongest) {
@@ -71,12 +62,6 @@ TEST(BlockClass, TheSpreadBoundsEveryMotionsDistanceFromTheLongest) {
     }
 }
 
-TEST(BlockClass, MotionCutToTheTileIsNotUniform) {
-    // All moves by 100 px: taps go 40 px far, but weights are of 100.
-    EXPECT_GE(tileSpread({100, 0}, {100, 0}, 100.0f, 40.0f), 60.0f);
-    EXPECT_EQ(tileSpread({30, 0}, {30, 0}, 30.0f, 40.0f), 0.0f);
-}
-
 TEST(BlockClass, ASmearReachesBlocksWithinItsLength) {
     const auto reaches = [](float x, float y, float reach) {
         return reachesBlock({x, y}, {x + 8, y + 8}, {40, 40}, {80, 80}, reach);
@@ -91,7 +76,7 @@ TEST(BlockClass, ASmearReachesBlocksWithinItsLength) {
     EXPECT_TRUE(reaches(90, 90, 13.5f));
 }
 
-TEST(BlockTiles, ACentreLiesInTheTileOfWholeNumbers) {
+TEST(BlockTiles, ACentreLiesInTheTileOfWholeNumbersAndPositionsBeyondThePictureInTheNearest) {
     for (uint tileSize = 1; tileSize < 130; ++tileSize)
         for (uint x = 0; x < 8192; ++x)
             ASSERT_EQ(
@@ -99,9 +84,6 @@ TEST(BlockTiles, ACentreLiesInTheTileOfWholeNumbers) {
                 ivec2(x / tileSize, 0)
             ) << x
               << " of " << tileSize;
-}
-
-TEST(BlockTiles, PositionsBeyondThePictureLieInItsNearestTile) {
     EXPECT_EQ(tileAt(vec2(-7.0f, 95.0f), 10, uvec2(3, 4)), ivec2(0, 3));
     EXPECT_EQ(lowestTile(vec2(0.0f), 5.0f, 10, uvec2(3, 4)), ivec2(0));
     EXPECT_EQ(highestTile(vec2(30.0f, 40.0f), 5.0f, 10, uvec2(3, 4)), ivec2(2, 3));
@@ -130,15 +112,12 @@ TEST(BlockTiles, ABlockKnowsEveryTileThatItsPixelsLookUp) {
             }
 }
 
-TEST(ShownMotion, MotionEndsBeyondTheDepthLimit) {
+TEST(ShownMotion, MotionBeyondTheDepthLimitOrNotFiniteIsShownAsNone) {
     EXPECT_EQ(shownMotion({3, 4}, 10.0f, 10.0f), vec2(3, 4));
     EXPECT_EQ(shownMotion({3, 4}, 10.1f, 10.0f), vec2(0));
     EXPECT_EQ(shownMotion({3, 4}, 1e9f, kInfinity), vec2(3, 4)) << "no limit: the sky too";
     EXPECT_EQ(shownMotion({3, 4}, 1e9f, 1e6f), vec2(0));
     EXPECT_EQ(shownMotion({3, 4}, kNan, kInfinity), vec2(0));
-}
-
-TEST(ShownMotion, NonFiniteMotionIsShownAsNone) {
     for (const float bad : {kNan, kInfinity, -kInfinity, 3e38f}) {
         EXPECT_EQ(shownMotion({bad, 0}, 1.0f, kInfinity), vec2(0));
         EXPECT_EQ(limitMotion({0, bad, 1}, 40.0f, kInfinity), vec2(0));
@@ -183,20 +162,17 @@ template <class Check> void forBlocks(Check&& check) {
     }
 }
 
-TEST(MaskBits, TheFirstMaskedPixelOfAQuadLeadsIt) {
+TEST(MaskBits, TheFirstMaskedPixelOfAQuadLeadsItAndAllAreListedWithoutQuads) {
     forBlocks([](uvec2 bits) {
         const uvec2 listed = listedBits(bits, true);
         for (uint y = 0; y < 8; ++y)
             for (uint x = 0; x < 8; ++x)
                 ASSERT_EQ(isMasked(listed, x, y), leads(bits, x, y)) << x << ", " << y;
     });
-}
-
-TEST(MaskBits, AllMaskedPixelsAreListedWithoutQuads) {
     forBlocks([](uvec2 bits) { ASSERT_EQ(listedBits(bits, false), bits); });
 }
 
-TEST(MaskBits, ThreadsTakeThePlacesInTurn) {
+TEST(MaskBits, ThreadsTakeThePlacesInTurnAndRowsBeginAtTheirFirstEntry) {
     forBlocks([](uvec2 bits) {
         uint place = 0;
         for (uint thread = 0; thread < 64; ++thread) {
@@ -205,9 +181,6 @@ TEST(MaskBits, ThreadsTakeThePlacesInTurn) {
         }
         ASSERT_EQ(countBits(bits), place);
     });
-}
-
-TEST(MaskBits, RowsBeginAtTheirFirstEntry) {
     EXPECT_EQ(countRows(0, 4), 0u);
     EXPECT_EQ(countRows(1, 4), 1u);
     EXPECT_EQ(countRows(4, 4), 1u);
@@ -223,7 +196,7 @@ template <class F> float respond(F&& f) {
     return sum;
 }
 
-TEST(RayMask, TheOperatorIsTheSeparableFiveByFiveSobel) {
+TEST(RayMask, TheOperatorIsTheSeparableFiveByFiveSobelWhichAnswersASlopeByItsSteepness) {
     // Rows of Pascal's triangle: the smoothing part is (1 1)^4, the derivative (1 1)^3 (-1 1).
     const std::array smooth{1.0f, 4.0f, 6.0f, 4.0f, 1.0f};
     const std::array derive{-1.0f, -2.0f, 0.0f, 2.0f, 1.0f};
@@ -231,9 +204,6 @@ TEST(RayMask, TheOperatorIsTheSeparableFiveByFiveSobel) {
         EXPECT_EQ(sobelSmooth(offset), smooth[size_t(offset + 2)]);
         EXPECT_EQ(sobelDerive(offset), derive[size_t(offset + 2)]);
     }
-}
-
-TEST(RayMask, AnEvenPlaneAnswersNothingAndASlopeAnswersByItsSteepness) {
     EXPECT_EQ(respond([](int, int) { return 7.0f; }), 0.0f);
     EXPECT_EQ(respond([](int, int y) { return float(y); }), 0.0f);
     const float slope = respond([](int x, int) { return float(x); });
@@ -241,16 +211,13 @@ TEST(RayMask, AnEvenPlaneAnswersNothingAndASlopeAnswersByItsSteepness) {
     EXPECT_EQ(respond([](int x, int) { return -3.0f * float(x); }), -3.0f * slope);
 }
 
-TEST(RayMask, TheMeasureIsOneMinusOneOverXPlusOne) {
+TEST(RayMask, TheMeasureIsOneMinusOneOverXPlusOneAndGrowsWithTheEdge) {
     // x = |depth| + |normal| = 5 + 3.
-    const float measure =
-        edgeMeasure(vec2(3.0f, -4.0f), vec3(1.0f, 2.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f));
-    EXPECT_NEAR(measure, 1.0f - 1.0f / 9.0f, 1e-6f);
+    const vec3 across(1.0f, 2.0f, 0.0f);
+    const vec3 down(0.0f, 0.0f, -2.0f);
+    EXPECT_NEAR(edgeMeasure(vec2(3.0f, -4.0f), across, down), 1.0f - 1.0f / 9.0f, 1e-6f);
     EXPECT_NEAR(edgeMeasure(vec2(1.0f, 0.0f), vec3(0.0f), vec3(0.0f)), 0.5f, 1e-6f);
     EXPECT_NEAR(edgeMeasure(vec2(0.0f), vec3(0.0f), vec3(0.0f, 9.0f, 0.0f)), 0.9f, 1e-6f);
-}
-
-TEST(RayMask, ASharperEdgeMeasuresMoreAndNeverAboveOne) {
     float last = 0.0f;
     for (float x = 0.001f; x < 1e5f; x *= 2.0f) {
         const float measure = edgeMeasure(vec2(0.0f, x), vec3(0.0f), vec3(0.0f));
@@ -275,12 +242,9 @@ double traceEverything(float rayShare) {
     return rays / (kSide * kSide);
 }
 
-TEST(RayShare, AllBlocksTogetherTraceTheShare) {
+TEST(RayShare, AllBlocksTogetherTraceTheShareAndOfOneEveryPixel) {
     for (const float share : {0.0f, 0.01f, 0.1f, 0.25f, 0.26f, 0.5f, 0.75f, 0.99f, 1.0f})
         EXPECT_NEAR(traceEverything(share), share, 0.01) << share;
-}
-
-TEST(RayShare, AShareOfOneTracesEveryPixelAndZeroNone) {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             ASSERT_EQ(chooseTracing({float(x), float(y)}, 1.0f), kTracePixels);
@@ -298,30 +262,29 @@ TEST(RayShare, ALargerShareTakesNothingFromAnyBlock) {
                 );
 }
 
-TEST(Denoise, TheDeviationOfAMeanIsThatOfItsValues) {
+TEST(Denoise, TheDeviationOfAMeanIsThatOfItsValuesAndZeroOfFewOrEqualOnes) {
     // 1, 2, 3, 4, 5: variance 2.5.
     EXPECT_NEAR(deviationOfMean(15.0f, 55.0f, 5), std::sqrt(2.5f) / 5.0f, 1e-6f);
     EXPECT_EQ(deviationOfMean(20.0f, 100.0f, 4), 0.0f); // all 5
-}
-
-TEST(Denoise, TooFewRaysHaveNoDeviation) {
     EXPECT_EQ(deviationOfMean(0.0f, 0.0f, 0), 0.0f);
     EXPECT_EQ(deviationOfMean(1.0f, 1.0f, 1), 0.0f);
     EXPECT_EQ(deviationOfMean(6.0f, 20.0f, 3), 0.0f);
-}
-
-TEST(Denoise, RoundingBelowZeroVarianceIsNotNaN) {
     // The squares' sum is a little too small, as rounding leaves it.
     EXPECT_EQ(deviationOfMean(4000.0f, 3999999.5f, 4), 0.0f);
 }
 
-TEST(Denoise, TheKernelsWeightsSumToOne) {
+TEST(Denoise, TheKernelsWeightsSumToOneAndALevelStaysWithinHalfTheSmear) {
     float sum = 0.0f;
     for (int k = -2; k <= 2; ++k) {
         EXPECT_EQ(atrousWeight(k), atrousWeight(-k));
         sum += atrousWeight(k);
     }
     EXPECT_EQ(sum, 1.0f);
+    EXPECT_TRUE(levelFits(1.0f, 4.0f));
+    EXPECT_FALSE(levelFits(1.0f, 3.9f));
+    EXPECT_TRUE(levelFits(16.0f, 64.0f));
+    EXPECT_FALSE(levelFits(16.0f, 40.0f));
+    EXPECT_FALSE(levelFits(1.0f, 0.0f));
 }
 
 TEST(Denoise, EqualLightAlwaysCountsAndNoiseFreePixelsTakeNothingElse) {
@@ -331,14 +294,6 @@ TEST(Denoise, EqualLightAlwaysCountsAndNoiseFreePixelsTakeNothingElse) {
     EXPECT_GT(luminanceWeight(-0.01f, 0.1f, 4.0f), 0.97f);
     EXPECT_EQ(luminanceWeight(-0.5f, 0.1f, 4.0f), luminanceWeight(0.5f, 0.1f, 4.0f));
     EXPECT_EQ(luminanceWeight(65000.0f, 0.0f, 0.01f), 0.0f);
-}
-
-TEST(Denoise, ALevelStaysWithinHalfTheSmear) {
-    EXPECT_TRUE(levelFits(1.0f, 4.0f));
-    EXPECT_FALSE(levelFits(1.0f, 3.9f));
-    EXPECT_TRUE(levelFits(16.0f, 64.0f));
-    EXPECT_FALSE(levelFits(16.0f, 40.0f));
-    EXPECT_FALSE(levelFits(1.0f, 0.0f));
 }
 
 } // namespace

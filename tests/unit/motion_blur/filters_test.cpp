@@ -30,27 +30,31 @@ double cylinderByThePaper(double distance, double speed) {
     return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
-TEST(Weights, ConeAndCylinderAreThePapers) {
+TEST(Weights, ConeAndCylinderAreThePapersAndAStillPixelSpreadsNowhere) {
     for (const float speed : {0.5f, 1.0f, 7.3f, 40.0f, 32768.0f})
         for (int i = 0; i <= 60; ++i) {
             const float distance = speed * float(i) / 50.0f;
             EXPECT_NEAR(cone(distance, speed), coneByThePaper(distance, speed), 1e-5);
             EXPECT_NEAR(cylinder(distance, speed), cylinderByThePaper(distance, speed), 1e-4);
         }
-}
-
-TEST(Weights, AStillPixelSpreadsNowhere) {
     EXPECT_EQ(cone(1.0f, 0.0f), 0.0f);
     EXPECT_EQ(cylinder(1.0f, 0.0f), 0.0f);
     EXPECT_EQ(cone(0.0f, 0.0f), 1.0f); // at its own place it is there
     EXPECT_EQ(cylinder(0.0f, 0.0f), 1.0f);
 }
 
-TEST(Weights, ASampleInFrontCountsByItsOwnMotion) {
+TEST(Weights, ASampleInFrontCountsByItsOwnMotionOneBehindByTheTargetsAndEqualsByBoth) {
     // The target is still and lies deeper by not quite the whole extent.
     EXPECT_NEAR(sampleWeight(0.999f, 4.0f, 10.0f, 0.0f, 30.0f), coneByThePaper(4.0, 10.0), 1e-5);
     // A still sample in front covers nothing but its own place.
     EXPECT_EQ(sampleWeight(2.0f, 4.0f, 0.0f, 10.0f, 30.0f), 0.0f);
+    const float weight = sampleWeight(-1.0f, 4.0f, 0.0f, 10.0f, 30.0f);
+    EXPECT_NEAR(weight, coneByThePaper(4.0, 10.0), 1e-5);
+    EXPECT_EQ(sampleWeight(-1.0f, 4.0f, 3.0f, 0.0f, 30.0f), 0.0f);
+    // z = 0: both cones and twice both cylinders.
+    const double expected = coneByThePaper(4.0, 10.0) + coneByThePaper(4.0, 8.0) +
+                            2.0 * cylinderByThePaper(4.0, 10.0) * cylinderByThePaper(4.0, 8.0);
+    EXPECT_NEAR(sampleWeight(0.0f, 4.0f, 10.0f, 8.0f, 30.0f), expected, 1e-5);
 }
 
 TEST(Weights, MagnificationActsOnlyWhereTheTargetIsDeeperByTheWholeExtent) {
@@ -64,20 +68,7 @@ TEST(Weights, MagnificationActsOnlyWhereTheTargetIsDeeperByTheWholeExtent) {
     );
 }
 
-TEST(Weights, ASampleBehindCountsByTheTargetsMotion) {
-    const float weight = sampleWeight(-1.0f, 4.0f, 0.0f, 10.0f, 30.0f);
-    EXPECT_NEAR(weight, coneByThePaper(4.0, 10.0), 1e-5);
-    EXPECT_EQ(sampleWeight(-1.0f, 4.0f, 3.0f, 0.0f, 30.0f), 0.0f);
-}
-
-TEST(Weights, TwoThatMoveTogetherBlurEachOther) {
-    // z = 0: both cones and twice both cylinders.
-    const double expected = coneByThePaper(4.0, 10.0) + coneByThePaper(4.0, 8.0) +
-                            2.0 * cylinderByThePaper(4.0, 10.0) * cylinderByThePaper(4.0, 8.0);
-    EXPECT_NEAR(sampleWeight(0.0f, 4.0f, 10.0f, 8.0f, 30.0f), expected, 1e-5);
-}
-
-TEST(Weights, NoWeightIsNegativeOrInfinite) {
+TEST(Weights, NoWeightIsNegativeOrInfiniteAndTheCentreCountsOneOverItsSpeed) {
     for (const float z : {-1e9f, -1.0f, 0.0f, 0.5f, 1.0f, 1e9f})
         for (const float distance : {0.0f, 0.5f, 39.0f, 1e6f})
             for (const float sample : {0.0f, 0.5f, 32768.0f})
@@ -85,9 +76,6 @@ TEST(Weights, NoWeightIsNegativeOrInfinite) {
                     const float weight = sampleWeight(z, distance, sample, target, 30.0f);
                     EXPECT_TRUE(weight >= 0.0f && isFinite(weight));
                 }
-}
-
-TEST(Weights, TheCentreCountsOneOverItsSpeedButAStillOneIsBounded) {
     EXPECT_FLOAT_EQ(centreWeight(10.0f), 0.1f);
     EXPECT_FLOAT_EQ(centreWeight(0.0f), 2.0f);
 }
@@ -108,13 +96,18 @@ TEST(Weights, TheNoiseIsSpreadEvenlyOverZeroToOne) {
         EXPECT_NEAR(count, kGrid * kGrid / 8, kGrid * kGrid / 80);
 }
 
-TEST(Weights, AmongEquallyLongMotionsTheOrderDoesNotMatter) {
+TEST(Weights, TheLongestMotionDoesNotDependOnTheOrderAndIsCutAlongItsDirection) {
     const std::vector<vec2> motions = {{3, 4}, {-3, 4}, {4, 3}, {0, 5}, {-5, 0}, {5, 0}, {3, -4}};
     for (const vec2 a : motions)
         for (const vec2 b : motions)
             EXPECT_EQ(longerMotion(a, b), longerMotion(b, a));
     EXPECT_EQ(longerMotion(vec2(3, 4), vec2(3, -4)), vec2(3, 4));
     EXPECT_EQ(longerMotion(vec2(3, 4), vec2(4, 3)), vec2(4, 3));
+    EXPECT_EQ(clampMotion(vec2(3.0f, 4.0f), 5.0f), vec2(3.0f, 4.0f));
+    EXPECT_EQ(clampMotion(vec2(0.0f), 5.0f), vec2(0.0f));
+    const vec2 cut = clampMotion(vec2(-30.0f, 40.0f), 5.0f);
+    EXPECT_NEAR(cut.x, -3.0f, 1e-5f);
+    EXPECT_NEAR(cut.y, 4.0f, 1e-5f);
 }
 
 TEST(Weights, TheTileOfAPixelIsExactUpToTheLargestPicture) {
@@ -129,14 +122,6 @@ TEST(Weights, TheTileOfAPixelIsExactUpToTheLargestPicture) {
     }
 }
 
-TEST(Weights, AMotionIsCutToTheLimitAndKeepsItsDirection) {
-    EXPECT_EQ(clampMotion(vec2(3.0f, 4.0f), 5.0f), vec2(3.0f, 4.0f));
-    EXPECT_EQ(clampMotion(vec2(0.0f), 5.0f), vec2(0.0f));
-    const vec2 cut = clampMotion(vec2(-30.0f, 40.0f), 5.0f);
-    EXPECT_NEAR(cut.x, -3.0f, 1e-5f);
-    EXPECT_NEAR(cut.y, 4.0f, 1e-5f);
-}
-
 constexpr float kShares[] = {0.0f, 0.5f, 1.0f};
 
 /// Light that rises evenly from none at open: s = sqrt(u).
@@ -149,7 +134,7 @@ ResponseTable risingResponse() {
     return table;
 }
 
-TEST(Taps, TapsFillTheExposureEvenlyInEveryPhase) {
+TEST(Taps, TapsFillTheExposureEvenlyAndTheInnerOnesAreThePapers) {
     for (const float share : kShares)
         for (const uint count : {1u, 2u, 15u, 256u})
             for (uint i = 0; i < count; ++i) {
@@ -158,9 +143,6 @@ TEST(Taps, TapsFillTheExposureEvenlyInEveryPhase) {
                 EXPECT_GE(tapPosition(i, 0.0f, count, share), share - 1.0f - 1e-6f);
                 EXPECT_LE(tapPosition(i, 0.999f, count, share), share + 1e-6f);
             }
-}
-
-TEST(Taps, TheInnerTapsOfACentredExposureAreThePapers) {
     // t = mix(-1, 1, (i + j + 1) / (S + 1)) of a half velocity, which is half the motion.
     for (const uint count : {1u, 15u, 35u})
         for (uint i = 0; i < count; ++i)
@@ -263,12 +245,9 @@ TEST(OwnVelocity, TheOccluderTestIsBevysInACentredExposure) {
     EXPECT_GT(covering, 100);
 }
 
-TEST(OwnVelocity, AStillOccluderCoversNothingButItself) {
+TEST(OwnVelocity, AnOccluderCoversOnTheSideOfTheExposureAndAStillOneOnlyItself) {
     EXPECT_FALSE(couldCover(vec2(0.5f, 0.0f), vec2(0.0f), 0.5f));
     EXPECT_TRUE(couldCover(vec2(0.0f), vec2(0.0f), 0.5f));
-}
-
-TEST(OwnVelocity, OwnVelocityFollowsTheSideOfAOneSidedExposure) {
     // Ends at the raster instant: only motion towards the offset has passed the pixel.
     EXPECT_TRUE(couldCover(vec2(8.0f, 0.0f), vec2(9.0f, 0.0f), 1.0f));
     EXPECT_FALSE(couldCover(vec2(8.0f, 0.0f), vec2(-9.0f, 0.0f), 1.0f));
@@ -332,13 +311,15 @@ TEST(Guertin2014, TheVarianceIsTheShareOfTheSecondDirection) {
     EXPECT_FALSE(isSecondDirection(2, 0.5f));
 }
 
-TEST(Guertin2014, TheJitterIsThePapersAndNeverLongerThanATap) {
+TEST(Guertin2014, TheJitterAndTheCentresWeightAreThePapers) {
     EXPECT_NEAR(guertinJitter(35), 0.95f * 27.0f / 35.0f, 1e-6f);
     EXPECT_EQ(guertinJitter(15), 1.0f);
     EXPECT_EQ(guertinJitter(1), 1.0f);
+    EXPECT_NEAR(guertinCentreWeight(10.0f, 35, 40.0f), 35.0f / (40.0f * 5.0f), 1e-6f);
+    EXPECT_NEAR(guertinCentreWeight(0.0f, 35, 40.0f), 35.0f / (40.0f * 0.5f), 1e-6f);
 }
 
-TEST(Guertin2014, EachPartOfTheWeightCountsByItsDirection) {
+TEST(Guertin2014, EachPartOfTheWeightCountsByItsDirectionAndNoneIsNegativeOrInfinite) {
     // A sample in front, 4 px away: its cone, by how its motion lies along the tap.
     EXPECT_NEAR(guertinWeight(2.0f, 4.0f, 10.0f, 0.0f, 1.0f, 0.5f), 0.6f * 0.5f, 1e-6f);
     EXPECT_EQ(guertinWeight(2.0f, 4.0f, 10.0f, 0.0f, 1.0f, 0.0f), 0.0f);
@@ -352,14 +333,6 @@ TEST(Guertin2014, EachPartOfTheWeightCountsByItsDirection) {
     );
     EXPECT_NEAR(guertinWeight(0.0f, 9.0f, 10.0f, 8.0f, 1.0f, 1.0f), 0.1f, 1e-6f)
         << "beyond the shorter";
-}
-
-TEST(Guertin2014, TheCentreHasThePapersWeight) {
-    EXPECT_NEAR(guertinCentreWeight(10.0f, 35, 40.0f), 35.0f / (40.0f * 5.0f), 1e-6f);
-    EXPECT_NEAR(guertinCentreWeight(0.0f, 35, 40.0f), 35.0f / (40.0f * 0.5f), 1e-6f);
-}
-
-TEST(Guertin2014, NoWeightIsNegativeOrInfinite) {
     for (const float z : {-1e11f, -1.0f, 0.0f, 1.0f, 1e11f})
         for (const float distance : {0.0f, 0.5f, 1e6f})
             for (const float sample : {0.0f, 0.5f, 256.0f})
@@ -371,7 +344,7 @@ TEST(Guertin2014, NoWeightIsNegativeOrInfinite) {
                     }
 }
 
-TEST(Jimenez2014, ForegroundAndBackgroundShareASampleByDepth) {
+TEST(Jimenez2014, DepthSharesASampleAndASpreadFadesOverOneTap) {
     EXPECT_EQ(classifyDepth(-1.0f), vec2(1.0f, 0.0f)); // the sample is deeper
     EXPECT_EQ(classifyDepth(1.0f), vec2(0.0f, 1.0f));
     EXPECT_EQ(classifyDepth(0.0f), vec2(0.5f, 0.5f));
@@ -379,22 +352,16 @@ TEST(Jimenez2014, ForegroundAndBackgroundShareASampleByDepth) {
         const vec2 both = classifyDepth(z);
         EXPECT_NEAR(both.x + both.y, 1.0f, 1e-6f);
     }
-}
-
-TEST(Jimenez2014, ASpreadCoversToItsEndAndFadesOverOneTap) {
     EXPECT_EQ(spreadCovers(3.0f, 2.9f), 1.0f);
     EXPECT_NEAR(spreadCovers(3.0f, 3.25f), 0.75f, 1e-6f);
     EXPECT_EQ(spreadCovers(3.0f, 4.0f), 0.0f);
 }
 
-TEST(Jimenez2014, AMoverInFrontCoversAndOneBehindShowsThroughTheTargetsSpread) {
+TEST(Jimenez2014, AMoverInFrontCoversAndOneBehindShowsThroughTheTargetsSpreadByWeightsOfZeroToOne) {
     EXPECT_EQ(jimenezWeight(5.0f, 2.0f, 4.0f, 0.0f), 1.0f);  // in front, reaches
     EXPECT_EQ(jimenezWeight(5.0f, 6.0f, 4.0f, 9.0f), 0.0f);  // in front, does not
     EXPECT_EQ(jimenezWeight(-5.0f, 2.0f, 0.0f, 4.0f), 1.0f); // behind a smeared target
     EXPECT_EQ(jimenezWeight(-5.0f, 2.0f, 9.0f, 0.0f), 0.0f); // behind a still one
-}
-
-TEST(Jimenez2014, NoWeightLeavesZeroToOne) {
     for (const float z : {-1e11f, -0.3f, 0.0f, 0.3f, 1e11f})
         for (const float distance : {0.0f, 0.5f, 1e6f})
             for (const float sample : {0.0f, 0.5f, 256.0f})

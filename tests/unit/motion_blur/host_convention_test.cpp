@@ -4,6 +4,7 @@
 #include "engine/math/math.h"
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_convention.h"
+#include "modules/motion_blur/embedding/host_input_check.h"
 #include "shaders/motion_blur/prepare.glsl"
 
 #include <gtest/gtest.h>
@@ -291,97 +292,90 @@ TEST(HostConvention, PartsOfImagesAreReadWhereTheyLie) {
     EXPECT_NEAR(uv.y * 160.0f, 69.75f, 1.0e-4f);
 }
 
+void expectRefusal(const core::Status& status, const std::string& part) {
+    ASSERT_FALSE(status.ok()) << "expected: " << part;
+    EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
+}
+
+TEST(HostImages, EachFieldOfAnImageThatIsWrongIsNamed) {
+    const auto refuse = [](const char* part, const std::function<void(HostImage&)>& change) {
+        HostImage image = makeImage(VK_FORMAT_R32G32B32A32_SFLOAT);
+        ASSERT_TRUE(checkImage(image, kMotionRule, kPicture).ok());
+        change(image);
+        expectRefusal(checkImage(image, kMotionRule, kPicture), std::string("motionDepth.") + part);
+    };
+    refuse("image is null", [](auto& i) { i.image = VK_NULL_HANDLE; });
+    refuse("before.layout is undefined", [](auto& i) {
+        i.before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    });
+    refuse("format is R8G8B8A8_UNORM, it must be one of R32G32B32A32_SFLOAT", [](auto& i) {
+        i.format = VK_FORMAT_R8G8B8A8_UNORM;
+    });
+    refuse("samples is 4", [](auto& i) { i.samples = VK_SAMPLE_COUNT_4_BIT; });
+    refuse("usage lacks VK_IMAGE_USAGE_SAMPLED_BIT", [](auto& i) {
+        i.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    });
+    refuse("area.extent is 5 x 0, both must be 0", [](auto& i) { i.area.extent = {5, 0}; });
+    refuse("area.offset is -1, 0", [](auto& i) { i.area.offset = {-1, 0}; });
+    refuse("area.extent is 20 x 24, it must be the picture's 200 x 100", [](auto& i) {
+        i.area.extent = {20, 24};
+    });
+    refuse("extent is 40 x 20, all of which is used without an area", [](auto& i) {
+        i.extent = {40, 20};
+    });
+    refuse("area ends at 201, 100, beyond its extent of 200 x 100", [](auto& i) {
+        i.extent = {200, 100};
+        i.area = {{1, 0}, {200, 100}};
+    });
+}
+
 TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
-    const HostConvention good = makeConvention({"", forward()});
-    ASSERT_TRUE(checkConvention(good, kPicture).ok());
-    const auto refuse = [&](const std::function<void(HostConvention&)>& change,
-                            const std::string& part) {
-        HostConvention convention = good;
-        change(convention);
-        const core::Status status = checkConvention(convention, kPicture);
-        ASSERT_FALSE(status.ok()) << "expected: " << part;
-        EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
-    };
     using C = HostConvention;
-    refuse([](C& c) { c.depth.image.image = VK_NULL_HANDLE; }, "depth.image is null");
-    refuse(
-        [](C& c) { c.vectors.image.format = VK_FORMAT_R8G8B8A8_UNORM; },
-        "vectors.format is R8G8B8A8_UNORM, it must be one of R16G16_SFLOAT"
-    );
-    refuse(
-        [](C& c) { c.vectors.image.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; },
-        "vectors.before.layout is undefined"
-    );
-    refuse(
-        [](C& c) { c.depth.image.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT; },
-        "depth.usage lacks VK_IMAGE_USAGE_SAMPLED_BIT"
-    );
-    refuse([](C& c) { c.depth.image.area.offset = {-1, 0}; }, "depth.area.offset is -1, 0");
-    refuse(
-        [](C& c) {
-            c.depth.image.extent = {200, 100};
-            c.depth.image.area = {{1, 0}, {200, 100}};
-        },
-        "depth.area ends at 201, 100, beyond its extent of 200 x 100"
-    );
-    refuse(
-        [](C& c) {
-            c.depth.image.area.extent = {5, 0};
-        },
-        "area.extent is 5 x 0, both must be 0"
-    );
-    refuse([](C& c) { c.vectors.pixelsPerUnit.y = 0.0f; }, "pixelsPerUnit holds 0");
-    refuse([](C& c) { c.vectors.pixelsPerUnit.x = kNaN; }, "pixelsPerUnit holds nan");
-    refuse(
-        [](C& c) {
-            c.depth.isLinear = true;
-            c.depth.metresPerUnit = 0.0f;
-        },
-        "metresPerUnit is 0"
-    );
-    refuse([](C& c) { c.scales.exposureShare = -1.0f; }, "exposureShare is -1");
-    refuse([](C& c) { c.scales.camera = kInfinity; }, "cameraScale is inf");
-    refuse([](C& c) { c.scales.object = kNaN; }, "objectScale is nan");
-    refuse([](C& c) { c.scales.displayedPerRendered = 0.5f; }, "displayedPerRendered is 0.5");
-    refuse(
-        [](C& c) { c.scales.perPixel = makeImage(VK_FORMAT_R32_UINT); },
-        "blurScale.format is R32_UINT"
-    );
-    refuse([](C& c) { c.cameras.jitterPx.x = kNaN; }, "cameras.jitterPx is not finite");
-    refuse([](C& c) { c.cameras.viewFromWorld[0].w = 1.0; }, "cameras.viewFromWorld is not affine");
-    refuse(
-        [](C& c) { c.cameras.viewFromWorldBefore = dmat4(0.0); },
-        "cameras.viewFromWorldBefore is not affine"
-    );
-    refuse(
-        [](C& c) { c.cameras.clipFromView[0].x = double(kNaN); },
-        "cameras.clipFromView is not finite"
-    );
-    refuse(
-        [](C& c) { c.cameras.clipFromView = aheadPlusZ(); },
-        "clipFromView faces +Z, cameras.aheadIsPlusZ means -Z"
-    );
-    refuse(
-        [](C& c) {
-            c.cameras.clipFromViewBefore = math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar);
-        },
-        "clipFromViewBefore is orthographic, clipFromView is not"
-    );
-    const auto refuseWithoutCameras = [&](const std::function<void(HostConvention&)>& change,
-                                          const std::string& part) {
-        refuse(
-            [&](C& c) {
-                c.cameras.areGiven = false;
-                c.depth.isLinear = true;
-                change(c);
-            },
-            part + ", which needs cameras"
-        );
+    const auto refuse = [](const std::string& part, const std::function<void(C&)>& change) {
+        HostConvention convention = makeConvention({"", forward()});
+        ASSERT_TRUE(checkConvention(convention, kPicture).ok());
+        change(convention);
+        expectRefusal(checkConvention(convention, kPicture), part);
     };
-    refuseWithoutCameras([](C& c) { c.depth.isLinear = false; }, "depthIsLinear is false");
-    refuseWithoutCameras([](C& c) { c.vectors.lackCamera = true; }, "vectorsLackCamera is true");
-    refuseWithoutCameras([](C& c) { c.vectors.image = {}; }, "vectors.image is null");
-    refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "cameraScale is not objectScale");
+    refuse("depth.image is null", [](C& c) { c.depth.image = {}; });
+    refuse("vectors.format is D32_SFLOAT, it must be one of R16G16_SFLOAT", [](C& c) {
+        c.vectors.image = c.depth.image;
+    });
+    refuse("blurScale.format is R32_UINT", [](C& c) {
+        c.scales.perPixel = makeImage(VK_FORMAT_R32_UINT);
+    });
+    refuse("pixelsPerUnit holds 0", [](C& c) { c.vectors.pixelsPerUnit.y = 0.0f; });
+    refuse("pixelsPerUnit holds nan", [](C& c) { c.vectors.pixelsPerUnit.x = kNaN; });
+    refuse("metresPerUnit is 0", [](C& c) { c.depth = {c.depth.image, true, 0.0f}; });
+    refuse("exposureShare is -1", [](C& c) { c.scales.exposureShare = -1.0f; });
+    refuse("cameraScale is inf", [](C& c) { c.scales.camera = kInfinity; });
+    refuse("objectScale is nan", [](C& c) { c.scales.object = kNaN; });
+    refuse("displayedPerRendered is 0.5", [](C& c) { c.scales.displayedPerRendered = 0.5f; });
+    refuse("cameras.jitterPx is not finite", [](C& c) { c.cameras.jitterPx.x = kNaN; });
+    refuse("cameras.viewFromWorld is not affine", [](C& c) { c.cameras.viewFromWorld[0].w = 1.0; });
+    refuse("cameras.viewFromWorldBefore is not affine", [](C& c) {
+        c.cameras.viewFromWorldBefore = dmat4(0.0);
+    });
+    refuse("cameras.clipFromView is not finite", [](C& c) {
+        c.cameras.clipFromView[0].x = double(kNaN);
+    });
+    refuse("clipFromView faces +Z, cameras.aheadIsPlusZ means -Z", [](C& c) {
+        c.cameras.clipFromView = aheadPlusZ();
+    });
+    refuse("clipFromViewBefore is orthographic, clipFromView is not", [](C& c) {
+        c.cameras.clipFromViewBefore = math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar);
+    });
+    const auto refuseWithoutCameras = [&](const std::string& part, const auto& change) {
+        refuse(part + ", which needs cameras", [&](C& c) {
+            c.cameras.areGiven = false;
+            c.depth.isLinear = true;
+            change(c);
+        });
+    };
+    refuseWithoutCameras("depthIsLinear is false", [](C& c) { c.depth.isLinear = false; });
+    refuseWithoutCameras("vectorsLackCamera is true", [](C& c) { c.vectors.lackCamera = true; });
+    refuseWithoutCameras("vectors.image is null", [](C& c) { c.vectors.image = {}; });
+    refuseWithoutCameras("cameraScale is not objectScale", [](C& c) { c.scales.camera = 0.5f; });
 }
 
 TEST(PrepareWay, PassesThroughBothEndsAndThePixelItself) {

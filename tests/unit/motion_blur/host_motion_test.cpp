@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion of a host: places of surfaces at the instants, and refusals.
+// Motion of a host: places of surfaces at the instants as its keys and ids give them, and refusals.
+// What tables of layers have for the engine and hosts alike is in
+// tests/unit/extract/instant_tables_test.cpp.
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/embedding/host_instants.h"
@@ -10,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -230,8 +233,9 @@ TEST_F(HostInstantsTest, EverythingIsStaticOutsideOfTheKeys) {
     setKeys({0.5});
     frame.rasterTime = 0.5;
     addTumbler();
-    const HostInstants made = compute();
-    EXPECT_TRUE(made.layers.raster.isStatic);
+    const HostRaster last = compute().raster;
+    const HostInstants made = compute(&last);
+    EXPECT_TRUE(made.layers.raster.isStatic && made.layers.last->isStatic);
     EXPECT_EQ(made.layers.raster.movers.at(1), shader::kWorldMover);
     setKeys({0.0, 0.5});
     addTumbler();
@@ -242,17 +246,6 @@ TEST_F(HostInstantsTest, EverythingIsStaticOutsideOfTheKeys) {
         late.at(mover * kInstants + 3).instantFromRaster[0],
         late.at(mover * kInstants + 4).instantFromRaster[0]
     );
-}
-
-TEST_F(HostInstantsTest, BothLayersAreStaticUnderAStaticCamera) {
-    for (HostCameraKey& key : keys)
-        key.viewFromWorld = glm::inverse(place({7.0, 1.0, -2.0}, {1.0, 2.0, 3.0}, 0.7));
-    addTumbler();
-    const HostRaster last = compute().raster;
-    const HostInstants made = compute(&last);
-    EXPECT_TRUE(made.layers.raster.isStatic);
-    ASSERT_TRUE(made.layers.last.has_value());
-    EXPECT_TRUE(made.layers.last->isStatic);
 }
 
 TEST_F(HostInstantsTest, ALensDisplacesByItsPlacesWhatIsOutOfFocus) {
@@ -334,17 +327,6 @@ TEST_F(HostInstantsTest, ThroughALensALastRasterOfTheSameAddsNothing) {
     EXPECT_TRUE(compute(&deforming).layers.last.has_value());
 }
 
-TEST_F(HostInstantsTest, InstantsFollowTheResponse) {
-    shader::ResponseTable rising{};
-    rising.knotCount = 2;
-    rising.knots[1] = {1.0f, 2.0f, 1.0f, 0.0f};
-    motion.response = &rising;
-    frame.hasResponse = true;
-    const HostInstants made = compute();
-    for (uint32_t i = 0; i < kInstants; ++i)
-        EXPECT_NEAR(made.layers.times.at(i), std::sqrt((i + 0.5) / kInstants), 1e-6);
-}
-
 TEST_F(HostInstantsTest, MoversWithoutTransformsAreFoundByMotionVectors) {
     movers = {{2, {}}};
     motion.movers = movers;
@@ -358,17 +340,6 @@ TEST_F(HostInstantsTest, ASingularTransformIsInvisible) {
     const HostInstants made = compute();
     const auto& found = made.layers.raster.motions.at(made.layers.raster.movers.at(1) * kInstants);
     EXPECT_EQ(found.instantFromRaster[2], vec4(0.0f));
-}
-
-TEST_F(HostInstantsTest, TheLastRasterShowsWhereItsSurfacesAreNow) {
-    addTumbler();
-    const HostRaster last = compute().raster;
-    nextFrame();
-    const HostInstants made = compute(&last);
-    ASSERT_TRUE(made.layers.last.has_value());
-    expectMaps(*made.layers.last, 1, project(cornerAt(1.0), 1.0), cornerAt);
-    const dvec4 still(0.5, 0.5, -9.0, 1.0);
-    expectMaps(*made.layers.last, 0, project(still, 1.0), [&](double) { return still; });
 }
 
 TEST_F(HostInstantsTest, AnotherSizeOrProjectionHasNoLastRaster) {
@@ -410,6 +381,8 @@ TEST_F(HostInstantsTest, RowsThatMoveAreFoundByTheirId) {
     const HostInstants made = compute(&last);
     ASSERT_TRUE(made.layers.last.has_value());
     expectMaps(*made.layers.last, 1, project(cornerAt(1.0), 1.0), cornerAt);
+    const dvec4 still(0.5, 0.5, -9.0, 1.0);
+    expectMaps(*made.layers.last, 2, project(still, 1.0), [&](double) { return still; });
     EXPECT_EQ(made.layers.last->movers.at(0), shader::kNoMover) << "10 is gone";
     EXPECT_EQ(made.layers.last->movers.at(2), shader::kWorldMover);
 }
@@ -455,7 +428,7 @@ class HostMotionCheck : public HostMotionFixture {
     }
 
     /// Refused after the change, by one sentence with `part`; accepted without it.
-    void refuse(const std::function<void()>& change, const std::string& part) {
+    void refuse(const std::string& part, const std::function<void()>& change) {
         reset();
         ASSERT_TRUE(check().ok()) << check().error().message;
         change();
@@ -466,165 +439,121 @@ class HostMotionCheck : public HostMotionFixture {
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
 
-    void giveResponse() {
-        motion.response = &response;
-        frame.hasResponse = true;
+    /// The same after another change, which is valid.
+    template <class Before> auto refuseAfter(const Before& before) {
+        return [this, before](const std::string& part, const std::function<void()>& change) {
+            refuse(part, [&] {
+                before();
+                ASSERT_TRUE(check().ok()) << check().error().message;
+                change();
+            });
+        };
+    }
+
+    /// An array that is declared to have a size, and that is not there.
+    template <class T> static std::span<const T> missing(size_t size) {
+        return {static_cast<const T*>(nullptr), size};
     }
 
     shader::ResponseTable response{};
 };
 
 TEST_F(HostMotionCheck, EachBadKeyIsNamed) {
-    refuse([&] { motion.keys = {}; }, "keys holds 0, it needs 1 to 64");
-    refuse([&] { setKeys(std::vector<double>(65, 0.5)); }, "keys holds 65");
-    refuse(
-        [&] {
-            motion.keys = {static_cast<const HostCameraKey*>(nullptr), 3};
-        },
-        "keys is null, its size is 3"
-    );
-    refuse([&] { keys[1].time = kNoNumber; }, "keys[1].time is nan");
-    refuse([&] { keys[2].time = 2.0e6; }, "keys[2].time is 2000000, it must be -1000000 to");
-    refuse([&] { keys[0].time = -2.0e6; }, "keys[0].time is -2000000");
-    refuse([&] { keys[0].time = -HUGE_VAL; }, "keys[0].time is -inf");
-    refuse([&] { keys[1].time = 0.0; }, "keys[1].time is 0, not after");
-    refuse([&] { keys[2].time = 0.9; }, "keys has no key at rasterTime, which is 1");
-    refuse([&] { keys[1].viewFromWorld[2][1] = kNoNumber; }, "keys[1].viewFromWorld is not finite");
-    refuse([&] { keys[0].viewFromWorld[2] = dvec4(0.0); }, "keys[0].viewFromWorld is singular");
-    refuse([&] { keys[0].viewFromWorld[1].w = 1.0; }, "keys[0].viewFromWorld is not affine");
-    refuse([&] { keys[0].viewFromWorld = dmat4(0.0); }, "keys[0].viewFromWorld is not affine");
-}
-
-TEST_F(HostMotionCheck, EachBadProjectionIsNamed) {
+    refuse("keys holds 0, it needs 1 to 64", [&] { motion.keys = {}; });
+    refuse("keys holds 65", [&] { setKeys(std::vector<double>(65, 0.5)); });
+    refuse("keys is null, its size is 3", [&] { motion.keys = missing<HostCameraKey>(3); });
+    refuse("keys[1].time is nan", [&] { keys[1].time = kNoNumber; });
+    refuse("keys[2].time is 2000000, it must be -1000000 to", [&] { keys[2].time = 2.0e6; });
+    refuse("keys[0].time is -2000000", [&] { keys[0].time = -2.0e6; });
+    refuse("keys[0].time is -inf", [&] { keys[0].time = -HUGE_VAL; });
+    refuse("keys[1].time is 0, not after", [&] { keys[1].time = 0.0; });
+    refuse("keys has no key at rasterTime, which is 1", [&] { keys[2].time = 0.9; });
+    refuse("keys[1].viewFromWorld is not finite", [&] { keys[1].viewFromWorld[2][1] = kNoNumber; });
+    refuse("keys[0].viewFromWorld is singular", [&] { keys[0].viewFromWorld[2] = dvec4(0.0); });
+    refuse("keys[0].viewFromWorld is not affine", [&] { keys[0].viewFromWorld[1].w = 1.0; });
+    refuse("keys[0].viewFromWorld is not affine", [&] { keys[0].viewFromWorld = dmat4(0.0); });
     const std::string name = "keys[1].clipFromView ";
-    refuse([&] { keys[1].clipFromView[0][0] = kNoNumber; }, name + "is not finite");
-    refuse([&] { keys[1].clipFromView[0][0] = 0.0; }, name + "is singular");
-    refuse([&] { keys[1].clipFromView = dmat4(0.0); }, name + "is neither perspective nor ortho");
-    refuse([&] { keys[1].clipFromView[0].w = 0.5; }, name + "is neither perspective nor ortho");
-    refuse([&] { keys[1].clipFromView[3].w = 1.0; }, name + "is neither perspective nor ortho");
-    refuse(
-        [&] { keys[1].clipFromView = math::clipFromViewOrthographic(1.0, 1.0, 0.1, 9.0); },
-        name + "is orthographic, keys[0].clipFromView is not"
-    );
-    refuse([&] { keys[1].clipFromView[2] *= -1.0; }, name + "faces +Z");
-    refuse([&] { motion.aheadIsPlusZ = true; }, "keys[0].clipFromView faces -Z");
+    refuse(name + "is not finite", [&] { keys[1].clipFromView[0][0] = kNoNumber; });
+    refuse(name + "is singular", [&] { keys[1].clipFromView[0][0] = 0.0; });
+    refuse(name + "is neither perspective nor ortho", [&] { keys[1].clipFromView = dmat4(0.0); });
+    refuse(name + "is neither perspective nor ortho", [&] { keys[1].clipFromView[0].w = 0.5; });
+    refuse(name + "is neither perspective nor ortho", [&] { keys[1].clipFromView[3].w = 1.0; });
+    refuse(name + "is orthographic, keys[0].clipFromView is not", [&] {
+        keys[1].clipFromView = math::clipFromViewOrthographic(1.0, 1.0, 0.1, 9.0);
+    });
+    refuse(name + "faces +Z", [&] { keys[1].clipFromView[2] *= -1.0; });
+    refuse("keys[0].clipFromView faces -Z", [&] { motion.aheadIsPlusZ = true; });
 }
 
-TEST_F(HostMotionCheck, EachBadMoverIsNamed) {
-    refuse([&] { motion.rowCount = 0; }, "rowCount is 0, it must be 1 to 16777215");
-    refuse([&] { motion.rowCount = 1u << 24u; }, "rowCount is 16777216");
-    refuse([&] { movers[0].row = kRows; }, "movers[0].row is 4, rowCount 4");
-    refuse(
-        [&] {
-            movers.push_back(movers[0]);
-            motion.movers = movers;
-        },
-        "movers[1].row is 1, as another mover's is"
-    );
-    refuse(
-        [&] {
-            motion.movers = {static_cast<const HostMover*>(nullptr), 1};
-        },
-        "movers is null, its size is 1"
-    );
-    refuse(
-        [&] { movers[0].worldFromObject = movers[0].worldFromObject.first(2); },
-        "movers[0].worldFromObject holds 2, keys 3"
-    );
-    refuse(
-        [&] {
-            movers[0].worldFromObject = {static_cast<const dmat4*>(nullptr), 3};
-        },
-        "movers[0].worldFromObject is null"
-    );
-    refuse([&] { matrices[2][3][0] = kNoNumber; }, "movers[0].worldFromObject[2] is not finite");
-    refuse([&] { matrices[1][1].w = 0.5; }, "movers[0].worldFromObject[1] is not affine");
+TEST_F(HostMotionCheck, EachBadMoverAndIdIsNamed) {
+    refuse("rowCount is 0, it must be 1 to 16777215", [&] { motion.rowCount = 0; });
+    refuse("rowCount is 16777216", [&] { motion.rowCount = 1u << 24u; });
+    refuse("movers[0].row is 4, rowCount 4", [&] { movers[0].row = kRows; });
+    refuse("movers[1].row is 1, as another mover's is", [&] {
+        movers.push_back(movers[0]);
+        motion.movers = movers;
+    });
+    refuse("movers is null, its size is 1", [&] { motion.movers = missing<HostMover>(1); });
+    refuse("movers[0].worldFromObject holds 2, keys 3", [&] {
+        movers[0].worldFromObject = movers[0].worldFromObject.first(2);
+    });
+    refuse("movers[0].worldFromObject is null", [&] {
+        movers[0].worldFromObject = missing<dmat4>(3);
+    });
+    refuse("movers[0].worldFromObject[2] is not finite", [&] { matrices[2][3][0] = kNoNumber; });
+    refuse("movers[0].worldFromObject[1] is not affine", [&] { matrices[1][1].w = 0.5; });
+    const std::vector<uint64_t> ids(3);
+    refuse("rowIds holds 3, rowCount is 4", [&] { motion.rowIds = ids; });
+    refuse("rowIds is null", [&] { motion.rowIds = missing<uint64_t>(kRows); });
 }
 
 TEST_F(HostMotionCheck, EachBadLensIsNamed) {
     HostLens& lens = motion.lens;
-    const auto refuseLens = [&](const std::function<void()>& change, const std::string& part) {
-        refuse(
-            [&] {
-                lens = {.radius = 0.01};
-                ASSERT_TRUE(check().ok()) << check().error().message;
-                change();
-            },
-            part
-        );
-    };
-    refuseLens([&] { lens.radius = -0.01; }, "lens.radius is -0.01, it must be 0 to 1000");
-    refuseLens([&] { lens.radius = kNoNumber; }, "lens.radius is nan");
-    refuseLens([&] { lens.radius = HUGE_VAL; }, "lens.radius is inf");
-    refuseLens([&] { lens.focusDistance = 0.0; }, "lens.focusDistance is 0, it must be 0.0001 to");
-    refuseLens([&] { lens.focusDistance = kNoNumber; }, "lens.focusDistance is nan");
-    refuseLens([&] { lens.focusDistance = 2e9; }, "lens.focusDistance is 2000000000");
-    refuseLens([&] { lens.blades = 2; }, "lens.blades is 2, it must be 0 or 3 to 16");
-    refuseLens([&] { lens.blades = 17; }, "lens.blades is 17");
-    refuseLens([&] { lens.bladeRotation = 7.0; }, "lens.bladeRotation is 7");
-    refuseLens([&] { lens.bladeRotation = kNoNumber; }, "lens.bladeRotation is nan");
-    refuseLens([&] { lens.roundness = 1.1; }, "lens.roundness is 1.1, it must be 0 to 1");
-    refuseLens([&] { lens.squeeze = 0.0; }, "lens.squeeze is 0, it must be above 0, to 4");
-    refuseLens([&] { lens.squeeze = kNoNumber; }, "lens.squeeze is nan");
+    const auto refuseLens = refuseAfter([&] { lens = {.radius = 0.01}; });
+    refuseLens("lens.radius is -0.01, it must be 0 to 1000", [&] { lens.radius = -0.01; });
+    refuseLens("lens.radius is nan", [&] { lens.radius = kNoNumber; });
+    refuseLens("lens.radius is inf", [&] { lens.radius = HUGE_VAL; });
+    refuseLens("lens.focusDistance is 0, it must be 0.0001 to", [&] { lens.focusDistance = 0.0; });
+    refuseLens("lens.focusDistance is nan", [&] { lens.focusDistance = kNoNumber; });
+    refuseLens("lens.focusDistance is 2000000000", [&] { lens.focusDistance = 2e9; });
+    refuseLens("lens.blades is 2, it must be 0 or 3 to 16", [&] { lens.blades = 2; });
+    refuseLens("lens.blades is 17", [&] { lens.blades = 17; });
+    refuseLens("lens.bladeRotation is 7", [&] { lens.bladeRotation = 7.0; });
+    refuseLens("lens.bladeRotation is nan", [&] { lens.bladeRotation = kNoNumber; });
+    refuseLens("lens.roundness is 1.1, it must be 0 to 1", [&] { lens.roundness = 1.1; });
+    refuseLens("lens.squeeze is 0, it must be above 0, to 4", [&] { lens.squeeze = 0.0; });
+    refuseLens("lens.squeeze is nan", [&] { lens.squeeze = kNoNumber; });
     std::vector<double> distances(keys.size(), 2.0);
     distances[1] = kNoNumber;
-    refuseLens([&] { lens.focusDistances = distances; }, "lens.focusDistances[1] is nan");
-    refuseLens(
-        [&] { lens.focusDistances = std::span<const double>(distances).first(1); },
-        "lens.focusDistances holds 1, keys 3"
-    );
-    refuseLens(
-        [&] {
-            lens.focusDistances = {static_cast<const double*>(nullptr), 3};
-        },
-        "lens.focusDistances is null, its size is 3"
-    );
+    refuseLens("lens.focusDistances[1] is nan", [&] { lens.focusDistances = distances; });
+    refuseLens("lens.focusDistances holds 1, keys 3", [&] {
+        lens.focusDistances = std::span<const double>(distances).first(1);
+    });
+    refuseLens("lens.focusDistances is null, its size is 3", [&] {
+        lens.focusDistances = missing<double>(3);
+    });
     isPerspective = false;
-    setKeys({0.0, 0.5, 1.0});
-    lens = {};
-    EXPECT_TRUE(check().ok());
-    lens.radius = 0.01;
-    EXPECT_EQ(
-        check().error().message,
-        "motion blur: lens.radius is 0.01, but keys[0].clipFromView is orthographic; it must be 0"
-    );
-    isPerspective = true;
-}
-
-TEST_F(HostMotionCheck, BadIdsAreNamed) {
-    const std::vector<uint64_t> ids(3);
-    refuse([&] { motion.rowIds = ids; }, "rowIds holds 3, rowCount is 4");
     refuse(
-        [&] {
-            motion.rowIds = {static_cast<const uint64_t*>(nullptr), kRows};
-        },
-        "rowIds is null"
+        "motion blur: lens.radius is 0.01, but keys[0].clipFromView is orthographic; it must be 0",
+        [&] { lens.radius = 0.01; }
     );
 }
 
 TEST_F(HostMotionCheck, ABadResponseIsNamed) {
-    refuse([&] { frame.hasResponse = true; }, "motion.response is null, response is not 0");
-    refuse([&] { motion.response = &response; }, "motion.response is given, response is 0");
-    reset();
-    giveResponse();
-    EXPECT_TRUE(check().ok());
-    const auto refuseTable = [&](const std::function<void()>& change, const std::string& part) {
-        refuse(
-            [&] {
-                giveResponse();
-                change();
-            },
-            part
-        );
-    };
-    refuseTable([&] { response.knotCount = 1; }, "motion.response->knotCount is 1");
-    refuseTable([&] { response.knotCount = 65; }, "motion.response->knotCount is 65");
-    refuseTable([&] { response.knots[0].s = 0.5f; }, "motion.response->knots[0]");
-    refuseTable([&] { response.knots[1].s = 0.5f; }, "motion.response->knots[1]");
-    refuseTable([&] { response.knots[1].density = float(kNoNumber); }, "motion.response->knots[1]");
-    refuseTable([&] { response.knots[1].cumulative = 2.0f; }, "motion.response->knots[1]");
-    refuseTable([&] { response.firstKnots[0] = 1; }, "motion.response->firstKnots[0] is 1");
-    refuseTable([&] { response.firstKnots[9] = 64; }, "motion.response->firstKnots[9] is 64");
+    refuse("motion.response is null, response is not 0", [&] { frame.hasResponse = true; });
+    refuse("motion.response is given, response is 0", [&] { motion.response = &response; });
+    const auto refuseTable = refuseAfter([&] {
+        motion.response = &response;
+        frame.hasResponse = true;
+    });
+    refuseTable("motion.response->knotCount is 1", [&] { response.knotCount = 1; });
+    refuseTable("motion.response->knotCount is 65", [&] { response.knotCount = 65; });
+    refuseTable("motion.response->knots[0]", [&] { response.knots[0].s = 0.5f; });
+    refuseTable("motion.response->knots[1]", [&] { response.knots[1].s = 0.5f; });
+    refuseTable("motion.response->knots[1]", [&] { response.knots[1].density = float(kNoNumber); });
+    refuseTable("motion.response->knots[1]", [&] { response.knots[1].cumulative = 2.0f; });
+    refuseTable("motion.response->firstKnots[0] is 1", [&] { response.firstKnots[0] = 1; });
+    refuseTable("motion.response->firstKnots[9] is 64", [&] { response.firstKnots[9] = 64; });
 }
 
 } // namespace

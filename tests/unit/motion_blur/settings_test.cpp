@@ -43,23 +43,20 @@ TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
     EXPECT_EQ(settings.maskTest, MaskTest::Paper);
 }
 
-TEST(MotionBlurSettings, UnsetFieldsAreTheDefaultMethodAndItsSamples) {
+TEST(MotionBlurSettings, UnsetFieldsAreTheDefaultMethodWhichWithoutMotionReadsCommonInputs) {
     EXPECT_TRUE(validate(MotionBlurSettings{}).ok());
     EXPECT_EQ(complete({}).method, &getMethod("resolved"));
     for (const Method* method : listMethods()) {
         EXPECT_EQ(complete({.method = method}).sampleCount, method->defaultSamples);
         EXPECT_EQ(complete({.method = method, .sampleCount = 3}).sampleCount, 3u);
     }
-}
-
-TEST(MotionBlurSettings, TheDefaultMethodWithoutMotionReadsCommonInputs) {
     const MotionBlurSettings settings = complete({}, false);
     EXPECT_TRUE(settings.method->readsImagesOnly());
     EXPECT_FALSE(settings.method->readsNormal);
     EXPECT_FALSE(settings.method->readsEntityId);
 }
 
-TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGiven) {
+TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGivenAndCoverNoMore) {
     MotionBlurSettings settings;
     for (const auto& [height, tile] :
          {std::pair(0u, 40u),
@@ -72,6 +69,12 @@ TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGiven) {
         EXPECT_EQ(chooseTileSize(settings, height), tile) << height;
     settings.tileSizePx = 7;
     EXPECT_EQ(chooseTileSize(settings, 1080), 7u);
+    const auto tiles = [](uint32_t width, uint32_t height) {
+        return resolve({}, width, height, 1.0).tileCount;
+    };
+    EXPECT_EQ(tiles(1, 1), glm::uvec2(1, 1));
+    EXPECT_EQ(tiles(40, 41), glm::uvec2(1, 2));
+    EXPECT_EQ(tiles(1280, 720), glm::uvec2(22, 12)) << "of 60 px";
 }
 
 TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
@@ -110,15 +113,6 @@ TEST(MotionBlurSettings, ANeighbourhoodWithoutAMiddleTileIsRefused) {
         EXPECT_EQ(
             validateWith([&](auto& s) { s.neighbourhoodTiles = tiles; }).ok(), tiles % 2 == 1
         );
-}
-
-TEST(MotionBlurSettings, TilesCoverThePictureAndNoMore) {
-    const auto tiles = [](uint32_t width, uint32_t height) {
-        return resolve({}, width, height, 1.0).tileCount;
-    };
-    EXPECT_EQ(tiles(1, 1), glm::uvec2(1, 1));
-    EXPECT_EQ(tiles(40, 41), glm::uvec2(1, 2));
-    EXPECT_EQ(tiles(1280, 720), glm::uvec2(22, 12)) << "of 60 px";
 }
 
 TEST(MotionBlurSettings, ResolveTurnsSettingsIntoWhatShadersRead) {
@@ -320,32 +314,23 @@ std::vector<uint32_t> countUp(uint32_t count) {
     return movers;
 }
 
-TEST(CrowdedTiles, NeedMoreMoversThanAListHolds) {
+TEST(CrowdedTiles, NeedMoreMoversThanAListHoldsWhereSurfacesAndTheSkyMoveWithTheCamera) {
     EXPECT_FALSE(mayCrowdTiles(makeLayers(countUp(kFull), true)));
     EXPECT_TRUE(mayCrowdTiles(makeLayers(countUp(kFull + 1), true)));
-}
-
-TEST(CrowdedTiles, StaticSurfacesAndTheSkyCountOnlyUnderAMovingCamera) {
     const std::vector<uint32_t> still(kFull, shader::kWorldMover);
     EXPECT_FALSE(mayCrowdTiles(makeLayers(still, true)));
     EXPECT_TRUE(mayCrowdTiles(makeLayers(still, false))) << "the sky is one more";
     const std::vector<uint32_t> fewer(kFull - 1, shader::kWorldMover);
     EXPECT_FALSE(mayCrowdTiles(makeLayers(fewer, false)));
-}
-
-TEST(CrowdedTiles, TilesReachedBySeveralPartsOfOneEntityMayBeCrowded) {
-    math::InstantLayers layers = makeLayers({shader::kDeformedMover}, true);
-    layers.raster.deforms = true;
-    EXPECT_TRUE(mayCrowdTiles(layers));
-}
-
-TEST(CrowdedTiles, UnknownRowsAreNotCounted) {
     EXPECT_FALSE(mayCrowdTiles(makeLayers(std::vector<uint32_t>(3 * kFull, shader::kNoMover), true))
     );
 }
 
-TEST(CrowdedTiles, TilesOfAnyLayerMayBeCrowded) {
-    math::InstantLayers layers = makeLayers(countUp(1), true);
+TEST(CrowdedTiles, TilesOfAnyLayerOrReachedBySeveralPartsOfOneEntityMayBeCrowded) {
+    math::InstantLayers layers = makeLayers({shader::kDeformedMover}, true);
+    layers.raster.deforms = true;
+    EXPECT_TRUE(mayCrowdTiles(layers));
+    layers = makeLayers(countUp(1), true);
     layers.last = makeLayer(countUp(kFull + 1), true);
     EXPECT_TRUE(mayCrowdTiles(layers));
     layers.last.reset();
