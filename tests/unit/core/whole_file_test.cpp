@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -35,11 +36,15 @@ std::string reasonOf(const Status& status) {
     return status ? "" : status.error().message;
 }
 
-unsigned modeOf(const fs::path& path) {
+struct stat statusOf(const fs::path& path) {
     struct stat found {};
 
     EXPECT_EQ(::stat(path.c_str(), &found), 0) << path;
-    return found.st_mode & 07777U;
+    return found;
+}
+
+unsigned modeOf(const fs::path& path) {
+    return statusOf(path).st_mode & 07777U;
 }
 
 /// Puts the process's mask back.
@@ -86,58 +91,49 @@ TEST(WholeFile, ALinkToNothingMakesTheFileThatItNames) {
     ASSERT_TRUE(writeText(folder.path() / "link.png", "new"));
     EXPECT_TRUE(fs::is_symlink(folder.path() / "link.png"));
     EXPECT_EQ(readText(folder.path() / "missing.png"), "new");
-    fs::create_symlink("nowhere/a.png", folder.path() / "lost.png");
-    for (const Status& status :
-         {checkOutput(folder.path() / "lost.png"), writeText(folder.path() / "lost.png", "x")})
-        EXPECT_FALSE(status);
-    EXPECT_NE(
-        reasonOf(checkOutput(folder.path() / "lost.png")).find("nowhere' does not exist"),
-        std::string::npos
-    );
 }
 
-TEST(WholeFile, LinksThatLeadInACircleAreRefusedInASentence) {
-    const TempFolder folder;
-    fs::create_symlink("b.png", folder.path() / "a.png");
-    fs::create_symlink("a.png", folder.path() / "b.png");
-    for (const Status& status :
-         {checkOutput(folder.path() / "a.png"), writeText(folder.path() / "a.png", "x")})
-        EXPECT_EQ(reasonOf(status), "its links lead in a circle");
-    EXPECT_TRUE(fs::is_symlink(folder.path() / "a.png"));
-}
-
-TEST(WholeFile, AFolderIsRefusedAndSoIsALinkToOne) {
+TEST(WholeFile, FoldersAndPathsThatLeadNowhereAreRefusedInASentence) {
     const TempFolder folder;
     fs::create_directory(folder.path() / "inner");
-    fs::create_symlink("inner", folder.path() / "link");
-    for (const char* name : {"inner", "link"})
-        for (const Status& status :
-             {checkOutput(folder.path() / name), writeText(folder.path() / name, "x")})
-            EXPECT_EQ(reasonOf(status), "it is a folder") << name;
+    const std::array<std::array<const char*, 2>, 4> links{
+        {{"inner", "folder"},
+         {"nowhere/a.png", "lost.png"},
+         {"b.png", "a.png"},
+         {"a.png", "b.png"}}};
+    for (const auto& [target, link] : links)
+        fs::create_symlink(target, folder.path() / link);
+    const std::array<std::array<const char*, 2>, 5> cases{
+        {{"inner", "it is a folder"},
+         {"folder", "it is a folder"},
+         {"a.png", "its links lead in a circle"},
+         {"lost.png", "nowhere' does not exist"},
+         {"nowhere/a.png", "nowhere' does not exist"}}};
+    for (const auto& [name, sentence] : cases) {
+        const std::string reason = reasonOf(checkOutput(folder.path() / name));
+        EXPECT_NE(reason.find(sentence), std::string::npos) << name << ": " << reason;
+        EXPECT_FALSE(writeText(folder.path() / name, "x")) << name;
+    }
+    EXPECT_EQ(reasonOf(writeText(folder.path() / "inner", "x")), "it is a folder");
+    EXPECT_EQ(reasonOf(writeText(folder.path() / "a.png", "x")), "its links lead in a circle");
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "a.png"));
+    EXPECT_FALSE(writeText("", "x"));
 }
 
-TEST(WholeFile, AFileThatIsThereKeepsItsPermissions) {
+TEST(WholeFile, AFileThatIsThereKeepsItsPermissionsAndANewOneHasThoseThatTheMaskLeaves) {
     const TempFolder folder;
-    for (const mode_t mask : {mode_t(0022), mode_t(0077)})
-        for (const unsigned mode : {0664u, 0600u, 0444u, 0755u}) {
-            const Umask set(mask);
-            const fs::path file = folder.write("a.png", "old");
-            ASSERT_EQ(::chmod(file.c_str(), mode), 0);
-            ASSERT_TRUE(writeText(file, "new"));
-            EXPECT_EQ(readText(file), "new");
-            EXPECT_EQ(modeOf(file), mode) << std::oct << mode << " under " << mask;
-            fs::remove(file);
-        }
-}
-
-TEST(WholeFile, ANewFileHasThePermissionsThatTheMaskLeaves) {
-    const TempFolder folder;
-    for (const auto& [mask, mode] :
+    const fs::path file = folder.path() / "a.png";
+    for (const auto& [mask, ofNew] :
          {std::pair<mode_t, unsigned>{0022, 0644}, {0077, 0600}, {0002, 0664}}) {
         const Umask set(mask);
-        const fs::path file = folder.path() / "a.png";
         ASSERT_TRUE(writeText(file, "new"));
-        EXPECT_EQ(modeOf(file), mode) << std::oct << mask;
+        EXPECT_EQ(modeOf(file), ofNew) << std::oct << mask;
+        for (const unsigned mode : {0664u, 0600u, 0444u, 0755u}) {
+            ASSERT_EQ(::chmod(file.c_str(), mode), 0);
+            ASSERT_TRUE(writeText(file, "newer"));
+            EXPECT_EQ(readText(file), "newer");
+            EXPECT_EQ(modeOf(file), mode) << std::oct << mode << " under " << mask;
+        }
         fs::remove(file);
     }
 }
@@ -150,12 +146,8 @@ TEST(WholeFile, AFileThatIsThereKeepsItsOwnerWhereTheSystemPermits) {
     constexpr uid_t kOther = 12345;
     ASSERT_EQ(::chown(file.c_str(), kOther, kOther), 0);
     ASSERT_TRUE(writeText(file, "new"));
-
-    struct stat found {};
-
-    ASSERT_EQ(::stat(file.c_str(), &found), 0);
-    EXPECT_EQ(found.st_uid, kOther);
-    EXPECT_EQ(found.st_gid, kOther);
+    EXPECT_EQ(statusOf(file).st_uid, kOther);
+    EXPECT_EQ(statusOf(file).st_gid, kOther);
 }
 
 TEST(WholeFile, OtherHardLinksKeepTheOldContents) {
@@ -171,12 +163,8 @@ TEST(WholeFile, ALinkToAnotherFileSystemIsReplacedThere) {
     const TempFolder folder;
     const fs::path shared = "/dev/shm";
 
-    struct stat here {};
-
-    struct stat there {};
-
-    if (::stat(folder.path().c_str(), &here) != 0 || ::stat(shared.c_str(), &there) != 0 ||
-        here.st_dev == there.st_dev || ::access(shared.c_str(), W_OK) != 0)
+    if (::access(shared.c_str(), W_OK) != 0 ||
+        statusOf(folder.path()).st_dev == statusOf(shared).st_dev)
         GTEST_SKIP() << "there is no other file system to write to";
     const fs::path real = shared / folder.path().filename();
     fs::create_symlink(real, folder.path() / "link.png");
@@ -223,14 +211,6 @@ TEST(WholeFile, AnOpenFileOfThisProcessIsWrittenWhereItStands) {
     EXPECT_FALSE(checkOutput(own)) << "it is closed";
     EXPECT_FALSE(writeText(own, "late"));
     EXPECT_EQ(test::countFiles(folder.path()), 2u);
-}
-
-TEST(WholeFile, AFolderThatIsMissingIsNamed) {
-    const TempFolder folder;
-    const std::string reason = reasonOf(checkOutput(folder.path() / "nowhere" / "a.png"));
-    EXPECT_NE(reason.find("nowhere' does not exist"), std::string::npos) << reason;
-    EXPECT_FALSE(writeText(folder.path() / "nowhere" / "a.png", "x"));
-    EXPECT_FALSE(writeText("", "x"));
 }
 
 } // namespace shutter::core

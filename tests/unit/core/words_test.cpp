@@ -36,7 +36,7 @@ RationalRate rationalOf(const std::string& text) {
     return found.value_or(RationalRate{});
 }
 
-TEST(FrameRate, AFractionIsKeptAndANumberStaysWhatItIs) {
+TEST(FrameRate, AFractionIsKeptAndItsTimesAreRoundedOnce) {
     EXPECT_EQ(parse("24000/1001"), FrameRate(24000.0, 1001.0));
     EXPECT_EQ(parse("24000/1001").perSecond(), 24000.0 / 1001.0);
     EXPECT_EQ(parse("29.97"), FrameRate(29.97));
@@ -47,9 +47,6 @@ TEST(FrameRate, AFractionIsKeptAndANumberStaysWhatItIs) {
         EXPECT_EQ(parse(describe(parse(text))), parse(text)) << text;
     EXPECT_EQ(describe(parse("30000/1001")), "30000/1001");
     EXPECT_EQ(describe(parse("29.97")), "29.97");
-}
-
-TEST(FrameRate, FrameTimesOfAFractionAreRoundedOnce) {
     const FrameRate rate = parse("24000/1001");
     EXPECT_EQ(rate.secondsOf(24000.0), 1001.0);
     EXPECT_EQ(rate.secondsOf(240000000.0), 10010000.0);
@@ -146,6 +143,8 @@ TEST(SettingRow, WrittenValuesAreReadBackUnchanged) {
         describeValues(kPaint, paint),
         "isWet=true coats=7 thickness=0.1 seconds=unlimited colour=green"
     );
+    EXPECT_EQ(shortestOf(0.03f), 0.03) << "a float is the number that people wrote";
+    EXPECT_EQ(static_cast<float>(shortestOf(1e-6f)), 1e-6f);
 }
 
 TEST(SettingRow, TextThatIsNoValueIsRefusedAndChangesNothing) {
@@ -168,7 +167,7 @@ TEST(SettingRow, TextThatIsNoValueIsRefusedAndChangesNothing) {
     }
 }
 
-TEST(SettingRow, ANumberOutsideItsRangeChangesNothing) {
+TEST(SettingRow, ANumberOutsideItsRangeIsRefusedAndItsFieldNamed) {
     Paint paint;
     for (const SettingRow<Paint>& row : kPaint) {
         if (!isNumber(row))
@@ -179,19 +178,11 @@ TEST(SettingRow, ANumberOutsideItsRangeChangesNothing) {
     }
     paint.seconds = 2.0;
     EXPECT_EQ(paint, Paint{});
-}
-
-TEST(SettingRow, ValidationNamesTheFieldThatIsOutOfItsRange) {
     EXPECT_TRUE(validateRows(kPaint, Paint{}, "paint.").ok());
     const Status valid = validateRows(kPaint, Paint{.thickness = 11.0f}, "paint.");
     ASSERT_FALSE(valid.ok());
     EXPECT_EQ(valid.error().message, "paint.thickness is 11, it must be 1e-06 to 10 mm");
     EXPECT_FALSE(validateRows(kPaint, Paint{.thickness = NAN}, "").ok());
-}
-
-TEST(SettingRow, AFloatIsTheNumberThatPeopleWrote) {
-    EXPECT_EQ(shortestOf(0.03f), 0.03);
-    EXPECT_EQ(static_cast<float>(shortestOf(1e-6f)), 1e-6f);
 }
 
 } // namespace
