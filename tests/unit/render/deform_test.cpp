@@ -45,6 +45,8 @@ DeformedVertex makeVertex(const dvec3& position, const dvec3& normal, const dvec
     return {vec3(position), vec3(normal), vec3(tangent)};
 }
 
+const DeformedVertex kRest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+
 double distance(const vec3& a, const dvec3& b) {
     return glm::length(dvec3(a) - b);
 }
@@ -83,18 +85,16 @@ TEST(Deform, SkinningIsTheWeightedSumOfWhatEachJointDoes) {
 
 TEST(Deform, AMirroringMatrixTurnsTheNormalAsItTurnsTheWinding) {
     const MotionKey mirror = extract::makeKey(glm::scale(dmat4(1.0), dvec3(-2.0, 1.0, 1.0)));
-    const DeformedVertex rest = makeVertex({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
-    const DeformedVertex mirrored = finishVertex(skinVertex(rest, mirror));
-    EXPECT_EQ(mirrored.position, vec3(-2, 0, 0));
+    const DeformedVertex mirrored = finishVertex(skinVertex(kRest, mirror));
+    EXPECT_EQ(mirrored.position, vec3(-2, 2, 3));
     EXPECT_EQ(mirrored.normal, vec3(0, 0, -1));
     EXPECT_EQ(mirrored.tangent, vec3(-1, 0, 0));
 }
 
 TEST(Deform, MorphTargetsAddUpBeforeTheSkin) {
-    const DeformedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
     const MorphDelta first{vec4(1, 0, 0, 9), vec4(0, 1, 0, 9), vec4(0, 0, 1, 9)};
     const MorphDelta second{vec4(0, -2, 0, 9), vec4(0, 0, -1, 9), vec4(0, 0, 0, 9)};
-    const DeformedVertex morphed = morphVertex(morphVertex(rest, first, 0.5f), second, 0.25f);
+    const DeformedVertex morphed = morphVertex(morphVertex(kRest, first, 0.5f), second, 0.25f);
     EXPECT_EQ(morphed.position, vec3(1.5, 1.5, 3));
     EXPECT_EQ(morphed.normal, vec3(0, 0.5, 0.75));
     EXPECT_EQ(morphed.tangent, vec3(1, 0, 0.5));
@@ -142,7 +142,7 @@ TEST(DeformWaves, WavesTurnNormalsAndTangentsWithTheSurface) {
         }
 }
 
-TEST(DeformWaves, AShareOfHeightIsHeldBelowAndFreeAbove) {
+TEST(DeformWaves, SharesOfHeightAndOfColorLieWithinZeroAndOne) {
     const DeformJob job = makeWaveJob(kWaveShareHeight, 3.0f);
     EXPECT_EQ(findWaveShare(job, vec3(0, -0.4f, 0), vec4(1)).share, 0.0f);
     EXPECT_EQ(findWaveShare(job, vec3(0, 1.7f, 0), vec4(1)).share, 1.0f);
@@ -150,9 +150,6 @@ TEST(DeformWaves, AShareOfHeightIsHeldBelowAndFreeAbove) {
     EXPECT_NEAR(findWaveShare(job, vec3(0, 0.6f, 0), vec4(1)).share, 0.125f, 1e-6f);
     EXPECT_EQ(findWaveShare(job, vec3(kNotANumber, 0, 0), vec4(1)).share, 0.0f);
     EXPECT_EQ(findWaveShare(job, vec3(0, kInfinite, 0), vec4(1)).share, 1.0f);
-}
-
-TEST(DeformWaves, AShareOfColorIsItsChannelWithinZeroAndOne) {
     const vec4 color(0.5f, -1.0f, 7.0f, kNotANumber);
     const float expected[] = {0.25f, 0.0f, 1.0f, 0.0f};
     for (uint channel = 0; channel < 4; ++channel)
@@ -184,37 +181,30 @@ TEST(Deform, AVectorWithoutADirectionIsZero) {
     }
 }
 
-TEST(Deform, ACollapsedJointLeavesFiniteVertices) {
-    const DeformedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
-    const DeformedVertex point = finishVertex(skinVertex(rest, noJoint()));
+TEST(Deform, CollapsedJointsAndPositionsThatAreNotFiniteLeaveFiniteVertices) {
+    const DeformedVertex point = finishVertex(skinVertex(kRest, noJoint()));
     EXPECT_EQ(point.position, vec3(0.0f));
     EXPECT_EQ(point.normal, vec3(0.0f));
     EXPECT_EQ(point.tangent, vec3(0.0f));
     const DeformedVertex flat = finishVertex(
-        skinVertex(rest, extract::makeKey(glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 0.0))))
+        skinVertex(kRest, extract::makeKey(glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 0.0))))
     );
     EXPECT_EQ(flat.position, vec3(1, 2, 0));
     EXPECT_EQ(flat.normal, vec3(0, 0, 1));
-}
-
-TEST(Deform, APositionThatIsNotFiniteIsAtTheOrigin) {
     for (const float bad : {kNotANumber, kInfinite, -kInfinite})
         for (int axis = 0; axis < 3; ++axis) {
-            DeformedVertex vertex = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+            DeformedVertex vertex = kRest;
             vertex.position[axis] = bad;
             const DeformedVertex finished = finishVertex(vertex);
-            EXPECT_TRUE(isFiniteVector(finished.position));
             EXPECT_EQ(finished.position, vec3(0.0f));
             EXPECT_EQ(finished.normal, vec3(0, 0, 1));
         }
 }
 
 TEST(Deform, JointsAreUnpackedInTheirOrder) {
-    const uvec2 packed_(0xFFFFu | 2u << 16u, 3u | 65534u << 16u);
-    EXPECT_EQ(unpackJoint(packed_, 0), 0xFFFFu);
-    EXPECT_EQ(unpackJoint(packed_, 1), 2u);
-    EXPECT_EQ(unpackJoint(packed_, 2), 3u);
-    EXPECT_EQ(unpackJoint(packed_, 3), 65534u);
+    const uint expected[] = {0xFFFFu, 2u, 3u, 65534u};
+    for (uint i = 0; i < 4; ++i)
+        EXPECT_EQ(unpackJoint(uvec2(0xFFFFu | 2u << 16u, 3u | 65534u << 16u), i), expected[i]) << i;
 }
 
 } // namespace shutter::shader

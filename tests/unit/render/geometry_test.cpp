@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Motion of points, rays at triangles, and numbers that are none.
+// Motion of points, ways of pixels packed into two words, rays at triangles, and numbers that are
+// none.
 #include "engine/math/math.h"
 #include "shaders/common/numeric.glsl"
+#include "shaders/common/pixel_way.glsl"
 #include "shaders/render/motion.glsl"
 #include "shaders/render/ray_triangle.glsl"
 
@@ -24,43 +26,28 @@ constexpr vec2 kPictureSize{200.0f, 100.0f};
 
 TEST(Motion, TheMiddleOfClipSpaceIsTheMiddleOfThePicture) {
     EXPECT_EQ(screenFromClip(vec3(0.0f, 0.0f, 5.0f), kPictureSize), vec2(100.0f, 50.0f));
-    const vec2 corner = screenFromClip(vec3(-5.0f, -5.0f, 5.0f), kPictureSize);
-    EXPECT_NEAR(corner.x, 0.0f, 1e-4f);
-    EXPECT_NEAR(corner.y, 0.0f, 1e-4f);
-    const vec2 opposite = screenFromClip(vec3(5.0f, 5.0f, 5.0f), kPictureSize);
-    EXPECT_NEAR(opposite.x, 200.0f, 1e-4f);
-    EXPECT_NEAR(opposite.y, 100.0f, 1e-4f);
-}
-
-TEST(Motion, APointAtRestHasNoMotion) {
-    const vec3 clip(0.3f, -0.2f, 2.0f);
-    EXPECT_EQ(motionFromClip(clip, clip, clip, 0.1f, kPictureSize), vec2(0.0f));
+    EXPECT_LT(distance(screenFromClip(vec3(-5.0f, -5.0f, 5.0f), kPictureSize), vec2(0.0f)), 1e-4f);
+    EXPECT_LT(distance(screenFromClip(vec3(5.0f), kPictureSize), kPictureSize), 1e-4f);
 }
 
 TEST(Motion, MotionPointsFromOpenToCloseInPixelsRightAndDown) {
     const vec3 open(0.0f, 0.0f, 2.0f);
     const vec3 close(0.2f, 0.4f, 2.0f); // a tenth and a fifth of clip space, halves of the picture
-    const vec2 motion = motionFromClip(open, close, close, 0.1f, kPictureSize);
-    EXPECT_NEAR(motion.x, 10.0f, 1e-4f);
-    EXPECT_NEAR(motion.y, 10.0f, 1e-4f);
-    const vec2 back = motionFromClip(close, open, open, 0.1f, kPictureSize);
-    EXPECT_NEAR(back.x, -10.0f, 1e-4f);
-    EXPECT_NEAR(back.y, -10.0f, 1e-4f);
+    const auto motionTo = [&](const vec3& from, const vec3& to) {
+        return motionFromClip(from, to, to, 0.1f, kPictureSize);
+    };
+    EXPECT_LT(distance(motionTo(open, close), vec2(10.0f)), 1e-4f);
+    EXPECT_LT(distance(motionTo(close, open), vec2(-10.0f)), 1e-4f);
+    EXPECT_EQ(motionTo(close, close), vec2(0.0f));
 }
 
-TEST(Motion, APointInFrontIsNotPulled) {
-    const vec3 clip(1.0f, 2.0f, 0.1f);
-    EXPECT_EQ(pullInFront(clip, vec3(0.0f, 0.0f, 3.0f), 0.1f), clip);
-}
-
-TEST(Motion, APointBehindIsPulledToWhereItsPathCrossesTheNearPlane) {
+TEST(Motion, OnlyAPointBehindIsPulledToWhereItsPathCrossesTheNearPlane) {
     const vec3 visible(4.0f, 2.0f, 3.0f);
     const vec3 behind(-4.0f, 6.0f, -1.0f);
     // w falls from 3 to -1; it is 1 half of the way.
-    const vec3 pulled = pullInFront(behind, visible, 1.0f);
-    EXPECT_NEAR(pulled.x, 0.0f, 1e-5f);
-    EXPECT_NEAR(pulled.y, 4.0f, 1e-5f);
-    EXPECT_NEAR(pulled.z, 1.0f, 1e-5f);
+    EXPECT_LT(distance(pullInFront(behind, visible, 1.0f), vec3(0.0f, 4.0f, 1.0f)), 1e-5f);
+    const vec3 clip(1.0f, 2.0f, 0.1f);
+    EXPECT_EQ(pullInFront(clip, vec3(0.0f, 0.0f, 3.0f), 0.1f), clip);
 }
 
 TEST(Motion, APointThatWasBehindTheCameraGetsAFiniteMotionInTheRightDirection) {
@@ -83,17 +70,13 @@ TEST(Motion, MotionIsClampedToTheStorableLengthInItsDirection) {
 
 TEST(Motion, NonFiniteMotionCountsAsStatic) {
     const vec3 clip(0.1f, 0.2f, 1.0f);
-    for (const float bad : {kQuietNan, kPlusInfinity, -kPlusInfinity}) {
-        EXPECT_EQ(
-            motionFromClip(vec3(bad, 0.0f, 1.0f), clip, clip, 0.1f, kPictureSize), vec2(0.0f)
-        );
-        EXPECT_EQ(
-            motionFromClip(clip, vec3(0.0f, bad, 1.0f), clip, 0.1f, kPictureSize), vec2(0.0f)
-        );
-    }
-    EXPECT_EQ(
-        motionFromClip(vec3(0.0f, 0.0f, kQuietNan), clip, clip, 0.1f, kPictureSize), vec2(0.0f)
-    );
+    for (const float bad : {kQuietNan, kPlusInfinity, -kPlusInfinity})
+        for (const vec3& lost : {vec3(bad, 0.0f, 1.0f), vec3(0.0f, bad, 1.0f)}) {
+            EXPECT_EQ(motionFromClip(lost, clip, clip, 0.1f, kPictureSize), vec2(0.0f));
+            EXPECT_EQ(motionFromClip(clip, lost, clip, 0.1f, kPictureSize), vec2(0.0f));
+        }
+    const vec3 nowhere(0.0f, 0.0f, kQuietNan);
+    EXPECT_EQ(motionFromClip(nowhere, clip, clip, 0.1f, kPictureSize), vec2(0.0f));
 }
 
 class Random {
@@ -161,81 +144,58 @@ TEST(RayTriangle, NoRayGetsThroughASharedEdgeOrCorner) {
     }
 }
 
-TEST(RayTriangle, TheSignOfTIsInFrontOrBehind) {
-    const vec3 a(-1, -1, -2);
-    const vec3 b(1, -1, -2);
-    const vec3 c(0, 1, -2);
-    const TriangleHit front = intersectTriangle(vec3(0), vec3(0, 0, -0.5f), a, b, c);
-    EXPECT_TRUE(front.found);
-    EXPECT_FLOAT_EQ(front.t, 4.0f);
-    EXPECT_TRUE(front.frontFace);
-    const TriangleHit behind = intersectTriangle(vec3(0), vec3(0, 0, 1), a, b, c);
-    EXPECT_TRUE(behind.found);
-    EXPECT_FLOAT_EQ(behind.t, -2.0f);
-    EXPECT_FALSE(behind.frontFace);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0, 0, -1), a, c, b).frontFace);
-}
-
-TEST(RayTriangle, DegenerateTrianglesAreNotHit) {
+TEST(RayTriangle, TheSignOfTIsInFrontOrBehindAndDegenerateTrianglesAreNotHit) {
     const vec3 a(-1, -1, -2);
     const vec3 b(1, -1, -2);
     const vec3 c(0, 1, -2);
     const vec3 ahead(0, 0, -1);
-    EXPECT_TRUE(intersectTriangle(vec3(0), ahead, a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0), a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(kQuietNan, 0, -1), a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), vec3(0, 0, -kPlusInfinity), a, b, c).found);
+    const TriangleHit front = intersectTriangle(vec3(0), 0.5f * ahead, a, b, c);
+    EXPECT_TRUE(front.found);
+    EXPECT_FLOAT_EQ(front.t, 4.0f);
+    EXPECT_TRUE(front.frontFace);
+    const TriangleHit behind = intersectTriangle(vec3(0), -ahead, a, b, c);
+    EXPECT_TRUE(behind.found);
+    EXPECT_FLOAT_EQ(behind.t, -2.0f);
+    EXPECT_FALSE(behind.frontFace);
+    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, c, b).frontFace);
+    for (const vec3& bad : {vec3(0), vec3(kQuietNan, 0, -1), vec3(0, 0, -kPlusInfinity)})
+        EXPECT_FALSE(intersectTriangle(vec3(0), bad, a, b, c).found);
     EXPECT_FALSE(intersectTriangle(vec3(kQuietNan), ahead, a, b, c).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(kQuietNan)).found);
-    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, vec3(0, kPlusInfinity, -2)).found);
+    for (const vec3& bad : {vec3(kQuietNan), vec3(0, kPlusInfinity, -2)})
+        EXPECT_FALSE(intersectTriangle(vec3(0), ahead, a, b, bad).found);
     EXPECT_FALSE(intersectTriangle(vec3(0), ahead, c, c, c).found);
     EXPECT_FALSE(intersectTriangle(vec3(0, -1, 0), ahead, a, b, b).found);
     // In the plane of the ray.
-    EXPECT_FALSE(
-        intersectTriangle(vec3(0), ahead, vec3(0, 0, -1), vec3(0, 0, -2), vec3(0, 1, -2)).found
-    );
+    EXPECT_FALSE(intersectTriangle(vec3(0), ahead, ahead, 2.0f * ahead, c).found);
 }
 
-TEST(Numeric, SaturateCutsBothEndsOff) {
+TEST(Numeric, SaturateCutsBothEndsOffAndLuminanceIsRec709s) {
     EXPECT_EQ(saturate(-1.0f), 0.0f);
     EXPECT_EQ(saturate(0.25f), 0.25f);
     EXPECT_EQ(saturate(7.0f), 1.0f);
     EXPECT_EQ(saturate(kPlusInfinity), 1.0f);
     EXPECT_EQ(saturate(-kPlusInfinity), 0.0f);
-}
-
-TEST(Numeric, LuminanceIsRec709sAndOneForWhite) {
     EXPECT_FLOAT_EQ(luminance(vec3(1.0f)), 1.0f);
     EXPECT_FLOAT_EQ(luminance(vec3(1.0f, 0.0f, 0.0f)), 0.2126f);
     EXPECT_FLOAT_EQ(luminance(vec3(0.0f, 2.0f, 0.0f)), 2.0f * 0.7152f);
     EXPECT_FLOAT_EQ(luminance(vec3(0.0f, 0.0f, 1.0f)), 0.0722f);
 }
 
-TEST(Numeric, NanAndInfinityAreNotFinite) {
-    EXPECT_FALSE(isFinite(kQuietNan));
-    EXPECT_FALSE(isFinite(kPlusInfinity));
-    EXPECT_FALSE(isFinite(-kPlusInfinity));
-    EXPECT_TRUE(isFinite(0.0f));
-    EXPECT_TRUE(isFinite(-3.4e38f));
-    EXPECT_FALSE(isFinite(-kQuietNan));
-    EXPECT_TRUE(isFinite(std::numeric_limits<float>::denorm_min()));
-    EXPECT_TRUE(isFinite(std::numeric_limits<float>::max()));
-    EXPECT_TRUE(isFinite(std::numeric_limits<float>::lowest()));
-}
-
-TEST(Numeric, OnlyNanIsNotANumber) {
+TEST(Numeric, NanAndInfinityAreNotFiniteAndOnlyNanIsNotANumber) {
+    using Limits = std::numeric_limits<float>;
+    for (const float x : {kQuietNan, -kQuietNan, kPlusInfinity, -kPlusInfinity})
+        EXPECT_FALSE(isFinite(x));
+    for (const float x : {0.0f, -3.4e38f, Limits::denorm_min(), Limits::max(), Limits::lowest()})
+        EXPECT_TRUE(isFinite(x)) << x;
     // Quiet and signalling, of either sign, with the smallest and the largest payload.
     for (const uint bits : {0x7FC00000u, 0x7F800001u, 0x7FFFFFFFu, 0xFFC00000u, 0xFF800001u})
         EXPECT_TRUE(isNotANumber(uintBitsToFloat(bits))) << std::hex << bits;
-    for (const float x : {0.0f, -0.0f, 1.0f, std::numeric_limits<float>::max(), kPlusInfinity})
+    for (const float x : {0.0f, -0.0f, 1.0f, Limits::max(), kPlusInfinity})
         EXPECT_FALSE(isNotANumber(x) || isNotANumber(-x)) << x;
 }
 
-TEST(Numeric, AStorableColourStaysAsItIs) {
+TEST(Numeric, OnlyChannelsThatNoHalfFloatCanHoldAreReplaced) {
     EXPECT_EQ(storableColor(vec3(0.0f, 0.5f, 64999.0f)), vec3(0.0f, 0.5f, 64999.0f));
-}
-
-TEST(Numeric, EachChannelThatNoHalfFloatCanHoldIsReplacedAlone) {
     EXPECT_EQ(storableColor(vec3(kQuietNan, 1.0f, 2.0f)), vec3(0.0f, 1.0f, 2.0f));
     EXPECT_EQ(storableColor(vec3(1.0f, kQuietNan, 2.0f)), vec3(1.0f, 0.0f, 2.0f));
     EXPECT_EQ(storableColor(vec3(1.0f, 2.0f, kQuietNan)), vec3(1.0f, 2.0f, 0.0f));
@@ -243,6 +203,39 @@ TEST(Numeric, EachChannelThatNoHalfFloatCanHoldIsReplacedAlone) {
         storableColor(vec3(kPlusInfinity, -kPlusInfinity, -1.0f)), vec3(kMaxColor, 0.0f, 0.0f)
     );
     EXPECT_LT(kMaxColor, 65504.0f); // the largest half float
+}
+
+float measureOff(const PixelWay& way) {
+    const PixelWay back = unpackWay(packWay(way));
+    float off = 0.0f;
+    for (const vec2 gap : {back.open - way.open, back.close - way.close, back.bend - way.bend})
+        off = std::max({off, std::abs(gap.x), std::abs(gap.y)});
+    return off;
+}
+
+TEST(PixelWays, AWayIsPackedToA64thOfAPixelOrAShareOfItsLengthOrOfItsBend) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> share(-1.0f, 1.0f);
+    const auto draw = [&](float most) { return most * vec2(share(random), share(random)); };
+    for (const float longest : {1.0f, 15.0f, 31.0f, 100.0f, 1000.0f, 32768.0f})
+        for (int i = 0; i < 200; ++i) {
+            const PixelWay way{draw(longest), draw(longest), draw(longest / 16.0f)};
+            EXPECT_LE(measureOff(way), std::max(1.0f / 64.0f, longest / 1000.0f)) << longest;
+        }
+    EXPECT_LE(measureOff({vec2(1.0f, -0.5f), vec2(0.0f), vec2(30.0f, -20.0f)}), 0.25f);
+    EXPECT_EQ(measureOff({vec2(0.0f), vec2(0.0f), vec2(0.0f)}), 0.0f) << "to the bit";
+    for (const float far : {1.0e3f, 1.0e6f, 1.0e20f, -1.0e3f, -1.0e6f, -1.0e20f})
+        EXPECT_NE(packWay({vec2(far), vec2(far), vec2(far)}).x, kNoWay);
+}
+
+TEST(PixelWays, AWayGoesThroughItsEndsAndItsMiddleAndAStraightOneThroughTheRaster) {
+    const PixelWay way{vec2(-8.0f, 2.0f), vec2(4.0f, 0.0f), vec2(1.0f, 3.0f)};
+    EXPECT_EQ(displacementAt(way, 0.0f), way.open);
+    EXPECT_EQ(displacementAt(way, 1.0f), way.close);
+    EXPECT_EQ(displacementAt(way, 0.5f), vec2(-1.0f, 4.0f));
+    const PixelWay straight = straightWay(vec2(12.0f, -4.0f), 0.25f);
+    EXPECT_EQ(displacementAt(straight, 0.25f), vec2(0.0f));
+    EXPECT_EQ(straight.close - straight.open, vec2(12.0f, -4.0f));
 }
 
 } // namespace

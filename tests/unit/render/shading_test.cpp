@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light on surfaces: reflection, sampling, textures' detail.
+// Light on surfaces: reflection, sampling, textures' detail, and the filters of shadow maps.
+#include "engine/extract/shadow_views.h"
+#include "engine/math/math.h"
 #include "shaders/common/sampling.glsl"
 #include "shaders/render/brdf.glsl"
+#include "shaders/render/shadow_filter.glsl"
 #include "shaders/render/split_samples_shared.h"
 #include "shaders/render/texture_lod.glsl"
 
@@ -9,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -23,43 +27,33 @@ vec3 makeDirection(double cosine, double azimuth) {
     return vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
 }
 
+/// The mean of what `sample` gives of places of the unit square: a share, and an angle around.
+template <class Sample> double integrate(const Sample& sample) {
+    constexpr int kSteps = 256;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j)
+            sum += sample((i + 0.5) / kSteps, 2.0 * kPiExact * (j + 0.5) / kSteps);
+    return sum / (kSteps * kSteps);
+}
+
 /// What a surface reflects towards `v` of light that comes with radiance 1 from everywhere: the
 /// integral over half vectors, placed as GGX is (density D (n.h) / (4 (v.h))), so that the sharpest
 /// highlight is no harder than the dullest.
 double integrateByHalfVectors(vec3 baseColor, float metallic, float roughness, vec3 v) {
-    constexpr int kRings = 256;
-    constexpr int kSteps = 256;
     const double alpha = double(roughness) * double(roughness);
-    double sum = 0.0;
-    for (int i = 0; i < kRings; ++i)
-        for (int j = 0; j < kSteps; ++j) {
-            const double u = (i + 0.5) / kRings;
-            const double cosine = std::sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u));
-            const vec3 h = makeDirection(cosine, 2.0 * kPiExact * (j + 0.5) / kSteps);
-            const float vDotH = dot(v, h);
-            const vec3 l = 2.0f * vDotH * h - v;
-            if (vDotH <= 0.0f || l.z <= 0.0f)
-                continue;
-            const double t = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
-            const double d = alpha * alpha / (kPiExact * t * t);
-            const double density = d * cosine / (4.0 * double(vDotH));
-            sum += double(reflectLight(baseColor, metallic, roughness, kNormal, v, l).x) / density;
-        }
-    return sum / (kRings * kSteps);
-}
-
-/// The same over directions, placed by their cosine: for surfaces without a sharp highlight.
-double integrateByDirections(vec3 baseColor, float metallic, float roughness, vec3 v) {
-    constexpr int kRings = 256;
-    constexpr int kSteps = 256;
-    double sum = 0.0;
-    for (int i = 0; i < kRings; ++i)
-        for (int j = 0; j < kSteps; ++j) {
-            const double cosine = (i + 0.5) / kRings;
-            const vec3 l = makeDirection(cosine, 2.0 * kPiExact * (j + 0.5) / kSteps);
-            sum += double(reflectLight(baseColor, metallic, roughness, kNormal, v, l).x);
-        }
-    return 2.0 * kPiExact * sum / (kRings * kSteps);
+    return integrate([&](double u, double angle) {
+        const double cosine = std::sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u));
+        const vec3 h = makeDirection(cosine, angle);
+        const float vDotH = dot(v, h);
+        const vec3 l = 2.0f * vDotH * h - v;
+        if (vDotH <= 0.0f || l.z <= 0.0f)
+            return 0.0;
+        const double t = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
+        const double d = alpha * alpha / (kPiExact * t * t);
+        const double density = d * cosine / (4.0 * double(vDotH));
+        return double(reflectLight(baseColor, metallic, roughness, kNormal, v, l).x) / density;
+    });
 }
 
 TEST(Brdf, TheMicrofacetsCoverTheSurfaceOnce) {
@@ -118,9 +112,12 @@ TEST(Brdf, AWhiteMetalNeverGivesBackMoreThanItGets) {
         }
 }
 
-TEST(Brdf, APolishedWhiteMetalLosesNearlyNothing) {
+TEST(Brdf, APolishedWhiteMetalLosesNearlyNothingAndABlackDielectricReflectsAtItsSurface) {
     EXPECT_NEAR(
         integrateByHalfVectors(vec3(1.0f), 1.0f, kMinRoughness, makeDirection(0.8, 0.0)), 1.0, 0.01
+    );
+    EXPECT_NEAR(
+        integrateByHalfVectors(vec3(0.0f), 0.0f, 0.3f, makeDirection(1.0, 0.0)), 0.04, 0.005
     );
 }
 
@@ -130,8 +127,13 @@ TEST(Brdf, AWhiteDielectricGivesBackNoMoreThanItGets) {
         double albedo = 0.0;
         for (int i = 0; i < kViews; ++i) {
             const double cosine = (i + 0.5) / kViews;
+            const vec3 v = makeDirection(cosine, 0.3);
+            // Over directions, placed by their cosine: there is no sharp highlight.
             const double sum =
-                integrateByDirections(vec3(1.0f), 0.0f, roughness, makeDirection(cosine, 0.3));
+                2.0 * kPiExact * integrate([&](double down, double angle) {
+                    const vec3 l = makeDirection(down, angle);
+                    return double(reflectLight(vec3(1.0f), 0.0f, roughness, kNormal, v, l).x);
+                });
             albedo += 2.0 * cosine * sum / kViews;
             EXPECT_GT(sum, 0.7) << roughness << " " << cosine;
             // glTF's mix weighs Lambert by 1 - F(v.h), which hardly falls towards grazing views;
@@ -142,11 +144,6 @@ TEST(Brdf, AWhiteDielectricGivesBackNoMoreThanItGets) {
         }
         EXPECT_LE(albedo, 1.03) << roughness;
     }
-}
-
-TEST(Brdf, ABlackDielectricStillReflectsAtItsSurface) {
-    const double sum = integrateByHalfVectors(vec3(0.0f), 0.0f, 0.3f, makeDirection(1.0, 0.0));
-    EXPECT_NEAR(sum, 0.04, 0.005);
 }
 
 TEST(Brdf, TheEnvironmentsShareIsNearTheIntegralItStandsFor) {
@@ -168,15 +165,10 @@ TEST(Brdf, TheEnvironmentsShareIsNearTheIntegralItStandsFor) {
         }
 }
 
-TEST(Brdf, LightFromBelowTheSurfaceGivesNothing) {
+TEST(Brdf, LightFromBelowTheSurfaceGivesNothingAndOfOppositeDirectionsAFiniteColour) {
     const vec3 v = makeDirection(0.7, 0.0);
-    EXPECT_EQ(
-        reflectLight(vec3(1.0f), 0.0f, 0.5f, kNormal, v, vec3(0.0f, 0.0f, -1.0f)), vec3(0.0f)
-    );
-    EXPECT_EQ(reflectLight(vec3(1.0f), 0.0f, 0.5f, kNormal, v, vec3(1.0f, 0.0f, 0.0f)), vec3(0.0f));
-}
-
-TEST(Brdf, DirectionsOppositeToEachOtherGiveAFiniteColour) {
+    for (const vec3& below : {vec3(0.0f, 0.0f, -1.0f), vec3(1.0f, 0.0f, 0.0f)})
+        EXPECT_EQ(reflectLight(vec3(1.0f), 0.0f, 0.5f, kNormal, v, below), vec3(0.0f));
     // The half vector vanishes where the light comes from behind a surface seen from its back.
     const vec3 l = makeDirection(0.6, 0.4);
     const vec3 color = reflectLight(vec3(0.5f), 0.3f, kMinRoughness, kNormal, -l, l);
@@ -191,49 +183,34 @@ TEST(Brdf, LightAndViewMayChangePlaces) {
     EXPECT_NEAR(one.x, other.x, 1e-5f);
 }
 
-TEST(ShutterTime, EveryPrefixOfAPowerOfTwoHasOneRayAStratum) {
-    for (const uint seed : {0u, 1u, 77u, 0xFFFFFFFFu})
-        for (uint count = 1; count <= 1024; count *= 2) {
-            std::set<uint> strata;
-            for (uint i = 0; i < count; ++i) {
-                const float s = shutterTime(i, seed);
-                ASSERT_TRUE(s >= 0.0f && s < 1.0f);
-                strata.insert(uint(s * float(count)));
+TEST(ShutterTime, EveryAlignedRunOfAPowerOfTwoHasOneTimeAStratum) {
+    for (const uint seed : {0u, 1u, 5u, 77u, 0xFFFFFFFFu})
+        for (uint count = 1; count <= 1024; count *= 2)
+            for (const uint first : {0u, count, 3u * count, 63u * count}) {
+                std::set<uint> strata;
+                for (uint i = first; i < first + count; ++i) {
+                    const float s = shutterTime(i, seed);
+                    ASSERT_TRUE(s >= 0.0f && s < 1.0f);
+                    strata.insert(uint(s * float(count)));
+                }
+                EXPECT_EQ(strata.size(), count) << seed << " " << first;
             }
-            EXPECT_EQ(strata.size(), count) << seed;
-        }
 }
 
-TEST(ShutterTime, EveryAlignedRunHasOneTimePerStratum) {
-    for (uint first = 0; first < 4096; first += 64) {
-        std::set<uint> strata;
-        for (uint i = first; i < first + 64; ++i)
-            strata.insert(uint(shutterTime(i, 5u) * 64.0f));
-        EXPECT_EQ(strata.size(), 64u);
-    }
-}
-
-TEST(ShutterTime, EachRayAloneIsUniformOverTheExposure) {
+TEST(ShutterTime, EachRayAloneIsUniformOverTheExposureAndOverItsStratum) {
     // Whatever the ray: over many pixels its times cover the exposure, so that a picture of any
     // number of rays is not biased. 1024 pixels in 8 bins: 128 +- 10.6.
-    for (const uint ray : {0u, 1u, 2u, 100u}) {
-        std::vector<int> bins(8, 0);
-        for (uint y = 0; y < 32; ++y)
-            for (uint x = 0; x < 32; ++x)
-                ++bins[size_t(shutterTime(ray, hashPixel(uvec2(x, y), 3u, 0u)) * 8.0f)];
-        for (const int count : bins)
-            EXPECT_NEAR(count, 128, 53) << ray;
-    }
-}
-
-TEST(ShutterTime, ARayTimeIsAnywhereWithinItsStratum) {
-    std::vector<int> bins(8, 0);
-    for (uint seed = 0; seed < 1024; ++seed) {
-        const float inStratum = shutterTime(9u, hashPcg(seed)) * 16.0f;
-        ++bins[size_t((inStratum - std::floor(inStratum)) * 8.0f)];
-    }
-    for (const int count : bins)
-        EXPECT_NEAR(count, 128, 53);
+    for (const uint ray : {0u, 1u, 2u, 100u})
+        for (const float strata : {1.0f, 16.0f}) {
+            std::vector<int> bins(8, 0);
+            for (uint y = 0; y < 32; ++y)
+                for (uint x = 0; x < 32; ++x) {
+                    const float s = strata * shutterTime(ray, hashPixel(uvec2(x, y), 3u, 0u));
+                    ++bins[size_t((s - std::floor(s)) * 8.0f)];
+                }
+            for (const int count : bins)
+                EXPECT_NEAR(count, 128, 53) << ray;
+        }
 }
 
 TEST(ShutterTime, TwoSetsOfAPixelAreIndependent) {
@@ -247,18 +224,15 @@ TEST(ShutterTime, TwoSetsOfAPixelAreIndependent) {
     EXPECT_NEAR(covariance, 0.0, 5.0 / 12.0 / 64.0);
 }
 
-TEST(SobolPoint, TheFirstPointsAreThePublishedOnes) {
+TEST(SobolPoint, TheFirstPointsAreThePublishedOnesAndFurtherDimensionsAreStratified) {
     // Joe and Kuo 2008, "new-joe-kuo-6": eighths of the first three dimensions.
     const uvec3 expected[8] = {
         {0, 0, 0}, {4, 4, 4}, {2, 6, 6}, {6, 2, 2}, {1, 5, 3}, {5, 1, 7}, {3, 3, 5}, {7, 7, 1}};
-    for (uint i = 0; i < 8; ++i)
+    const uvec2 further[8] = {{0, 0}, {4, 4}, {6, 2}, {2, 6}, {1, 1}, {5, 5}, {7, 3}, {3, 7}};
+    for (uint i = 0; i < 8; ++i) {
         EXPECT_EQ(sobolPoint(i) >> 29u, expected[i]) << i;
-}
-
-TEST(SobolPoint, FourthAndFifthDimensionsAreStratifiedToo) {
-    const uvec2 expected[8] = {{0, 0}, {4, 4}, {6, 2}, {2, 6}, {1, 1}, {5, 5}, {7, 3}, {3, 7}};
-    for (uint i = 0; i < 8; ++i)
-        EXPECT_EQ(sobolPoint45(i) >> 29u, expected[i]) << i;
+        EXPECT_EQ(sobolPoint45(i) >> 29u, further[i]) << i;
+    }
 }
 
 TEST(LensPlace, PlacesCoverTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
@@ -273,27 +247,24 @@ TEST(LensPlace, PlacesCoverTheLensEvenlyAtAnyTimeAndPlaceInThePixel) {
                 const auto cell = uvec3(uint(lens.x * 4.0f), uint(lens.y * 4.0f), uint(by * 4.0f));
                 ++cells[(cell.x * 4 + cell.y) * 4 + cell.z];
             }
-            for (const int count : cells)
-                EXPECT_EQ(count, 64) << other;
+            EXPECT_EQ(cells, std::vector(64, 64)) << other;
         }
 }
 
 TEST(PixelPlace, PlaceAndTimeFillTheCubeEvenly) {
     // Elementary boxes of a net: whatever way the volume is cut into powers of two.
-    for (const uint seed : {1u, 900u}) {
+    for (const uint seed : {1u, 900u})
         for (int cut = 0; cut < 3; ++cut) {
-            std::vector<int> cells(256, 0);
+            std::vector<int> cells(64, 0);
             for (uint i = 0; i < 256; ++i) {
                 const vec2 place = pixelPlace(i, seed);
                 ASSERT_TRUE(place.x >= 0.0f && place.x < 1.0f && place.y >= 0.0f && place.y < 1.0f);
                 const float a = cut == 0 ? shutterTime(i, seed) : place.x;
                 const float b = cut == 1 ? shutterTime(i, seed) : place.y;
-                ++cells[size_t(a * 8.0f) * 8 + size_t(b * 8.0f)];
+                ++cells.at(size_t(a * 8.0f) * 8 + size_t(b * 8.0f));
             }
-            for (size_t cell = 0; cell < 64; ++cell)
-                EXPECT_EQ(cells[cell], 4) << cut;
+            EXPECT_EQ(cells, std::vector(64, 4)) << cut;
         }
-    }
 }
 
 TEST(HashPixel, NeighboursSeedsAndStreamsDiffer) {
@@ -306,15 +277,12 @@ TEST(HashPixel, NeighboursSeedsAndStreamsDiffer) {
     EXPECT_EQ(found.size(), 16u * 16u * 4u * 2u);
 }
 
-TEST(TextureLod, DensityIsTextureAreaOverSurfaceArea) {
+TEST(TextureLod, DensityIsTextureAreaOverSurfaceAreaByAnyTwoDisplacementsInThePlane) {
     // A square metre in 2 x 3 units of texture coordinates.
     const float density = textureDensity(
         vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 1.0f), vec2(2.0f, 0.0f), vec2(0.0f, 3.0f)
     );
     EXPECT_NEAR(density, 6.0f, 1e-5f);
-}
-
-TEST(TextureLod, AnyTwoDisplacementsInThePlaneGiveTheSameDensity) {
     const vec3 edge1(1.0f, 0.2f, -0.3f);
     const vec3 edge2(0.1f, 2.0f, 0.7f);
     const vec2 uv1(0.4f, 0.1f);
@@ -324,43 +292,25 @@ TEST(TextureLod, AnyTwoDisplacementsInThePlaneGiveTheSameDensity) {
         3.0f * edge1 - edge2, 0.5f * edge1 + 2.0f * edge2, 3.0f * uv1 - uv2, 0.5f * uv1 + 2.0f * uv2
     );
     EXPECT_NEAR(other, expected, 1e-5f * expected);
-}
-
-TEST(TextureLod, ATriangleWithoutAreaHasAFiniteLevel) {
-    const float density =
-        textureDensity(vec3(1.0f), vec3(2.0f), vec2(0.0f, 1.0f), vec2(1.0f, 0.0f));
-    EXPECT_TRUE(isFinite(density));
-    EXPECT_TRUE(isFinite(textureLevel(density, 1024.0f, 0.001f, 1.0f, 0.0f)));
+    const float none = textureDensity(vec3(1.0f), vec3(2.0f), vec2(0.0f, 1.0f), vec2(1.0f, 0.0f));
+    EXPECT_TRUE(isFinite(none)) << "of no area";
+    EXPECT_TRUE(isFinite(textureLevel(none, 1024.0f, 0.001f, 1.0f, 0.0f)));
     EXPECT_EQ(textureLevel(0.0f, 1024.0f, 0.001f, 1.0f, 0.0f), 0.0f);
 }
 
-TEST(TextureLod, ATexelAPixelIsLevelZeroAndEachDoublingOfDistanceIsOneMore) {
-    constexpr float kTexels = 256.0f * 256.0f; // over one square metre
-    for (int level = 0; level < 8; ++level) {
-        const float footprint = std::ldexp(1.0f / 256.0f, level);
-        EXPECT_NEAR(
-            textureLevel(1.0f, kTexels, footprint, 1.0f, 0.0f), static_cast<float>(level), 1e-5f
-        );
-    }
-}
-
-TEST(TextureLod, ANearerSurfaceIsNotMagnifiedBelowLevelZero) {
-    EXPECT_EQ(textureLevel(1.0f, 256.0f * 256.0f, 1.0e-6f, 1.0f, 0.0f), 0.0f);
-    EXPECT_EQ(textureLevel(1.0f, 256.0f * 256.0f, 1.0f / 64.0f, 1.0f, -100.0f), 0.0f);
-}
-
-TEST(TextureLod, ASlantedSurfaceCoversMoreOfTheTexture) {
-    constexpr float kTexels = 256.0f * 256.0f;
-    const float straight = textureLevel(1.0f, kTexels, 1.0f / 16.0f, 1.0f, 0.0f);
-    EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 16.0f, 0.25f, 0.0f), straight + 1.0f, 1e-5f);
-    // Edge on: bounded, not infinite.
-    EXPECT_TRUE(isFinite(textureLevel(1.0f, kTexels, 1.0f / 16.0f, 0.0f, 0.0f)));
-}
-
-TEST(TextureLod, TheLevelIncludesTheBias) {
-    constexpr float kTexels = 256.0f * 256.0f;
-    EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, -1.5f), 1.5f, 1e-5f);
-    EXPECT_NEAR(textureLevel(1.0f, kTexels, 1.0f / 32.0f, 1.0f, 0.5f), 3.5f, 1e-5f);
+TEST(TextureLod, ATexelAPixelIsLevelZeroAndEachDoublingOfDistanceOrBiasIsOneMore) {
+    // Of 256 x 256 texels over one square metre.
+    const auto levelOf = [](float footprint, float cosine, float bias) {
+        return textureLevel(1.0f, 256.0f * 256.0f, footprint, cosine, bias);
+    };
+    for (int level = 0; level < 8; ++level)
+        EXPECT_NEAR(levelOf(std::ldexp(1.0f / 256.0f, level), 1.0f, 0.0f), float(level), 1e-5f);
+    EXPECT_EQ(levelOf(1.0e-6f, 1.0f, 0.0f), 0.0f) << "a nearer one is not magnified";
+    EXPECT_EQ(levelOf(1.0f / 64.0f, 1.0f, -100.0f), 0.0f);
+    EXPECT_NEAR(levelOf(1.0f / 16.0f, 0.25f, 0.0f), 5.0f, 1e-5f) << "a slanted one covers more";
+    EXPECT_TRUE(isFinite(levelOf(1.0f / 16.0f, 0.0f, 0.0f))) << "edge on";
+    EXPECT_NEAR(levelOf(1.0f / 32.0f, 1.0f, -1.5f), 1.5f, 1e-5f);
+    EXPECT_NEAR(levelOf(1.0f / 32.0f, 1.0f, 0.5f), 3.5f, 1e-5f);
 }
 
 TEST(SamplesOfAPixel, ANormalIsPackedToATenthOfAMilliradian) {
@@ -378,13 +328,10 @@ TEST(SamplesOfAPixel, ANormalIsPackedToATenthOfAMilliradian) {
     }
 }
 
-TEST(SamplesOfAPixel, AnEntitysRowIsReadBackFromItsWord) {
+TEST(SamplesOfAPixel, RowsAreReadBackFromTheirWordsAndEachPlaceIsNearestToItself) {
     EXPECT_EQ(rowOfSample(kNoEntity), kNoEntity);
     EXPECT_EQ(rowOfSample(0u), 0u);
     EXPECT_EQ(rowOfSample(kSampleOfPart | 0x7Fu << kSampleRowBits | 0xFFFFFEu), 0xFFFFFEu);
-}
-
-TEST(SamplesOfAPixel, ThePlaceOfEachIsNearestToItself) {
     vec2 sum(0.0f);
     for (uint32_t i = 0; i < kSampleCount; ++i) {
         EXPECT_EQ(nearestSample(placeOfSample(i)), i);
@@ -392,6 +339,201 @@ TEST(SamplesOfAPixel, ThePlaceOfEachIsNearestToItself) {
     }
     EXPECT_EQ(sum, 0.5f * float(kSampleCount) * vec2(1.0f));
     EXPECT_EQ(nearestSample(vec2(0.5f)), 0u);
+}
+
+constexpr uint kSize = 128;
+
+/// 16 metres wide and deep, its corner at (-6, -5) metres, its farthest depth at -4.
+ShadowCascade makeCascade() {
+    ShadowCascade cascade{};
+    cascade.texelsPerMetre = kSize / 16.0f;
+    cascade.corner = vec2(6.0f, 5.0f) * cascade.texelsPerMetre;
+    cascade.depthPerMetre = 1.0f / 16.0f;
+    cascade.depth = 4.0f / 16.0f;
+    cascade.sizePx = kSize;
+    return cascade;
+}
+
+/// A ball's, and that of a disc that lies level. Not constant: GLSL copies arrays, C++ does not.
+vec4 ball[3] = {vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0)};
+vec4 disc[3] = {vec4(1, 0, 0, 0), vec4(0, 2500, 0, 0), vec4(0, 0, 1, 0)};
+
+TEST(ShadowFilter, WeightsSumToOneAndEdgesAreSharperWhereTexelsAreLargerThanPixels) {
+    for (const float offset : {-0.5f, -0.2f, 0.0f, 0.31f, 0.5f}) {
+        const vec3 weights = splineWeights(offset);
+        EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0f, 1e-6f);
+    }
+    EXPECT_EQ(splineWeights(0.0f).x, splineWeights(0.0f).z);
+    // From texel to texel without a step.
+    EXPECT_NEAR(splineWeights(0.5f).z, splineWeights(-0.5f).y, 1e-6f);
+    EXPECT_EQ(sharpenEdge(0.5f, 0.1f), 0.5f);
+    EXPECT_EQ(sharpenEdge(0.3f, 4.0f), 0.3f) << "texels are smaller than pixels";
+    EXPECT_NEAR(sharpenEdge(0.4f, 0.1f), 0.5f - 0.1f * kMaxEdgeContrast, 1e-6f);
+    for (const float texels : {0.0f, 0.1f, 1.0f, 10.0f}) {
+        EXPECT_EQ(sharpenEdge(0.0f, texels), 0.0f);
+        EXPECT_EQ(sharpenEdge(1.0f, texels), 1.0f);
+    }
+}
+
+/// The sum of filterMap() if all nine texels transmit light, or none does.
+float addTexels(float right, float down, float caster) {
+    const vec3 across = splineWeights(right);
+    const vec3 rows = splineWeights(down);
+    const float row = lightThrough(vec3(caster), across, vec3(0.5f));
+    return rows.x * row + rows.y * row + rows.z * row;
+}
+
+TEST(ShadowFilter, FullyLitAndDarkPointsAreExact) {
+    bool isRounded = false;
+    for (int i = -50; i <= 50; ++i)
+        for (int j = -50; j <= 50; ++j) {
+            const float lit = addTexels(0.01f * float(i), 0.01f * float(j), 0.0f);
+            isRounded = isRounded || lit != 1.0f;
+            EXPECT_EQ(settleLight(lit), 1.0f) << i << ", " << j;
+            EXPECT_EQ(settleLight(1.0f - lit), 0.0f) << i << ", " << j;
+        }
+    EXPECT_TRUE(isRounded) << "nothing had to be settled";
+    for (const float soft : {1.0e-3f, 0.25f, 0.999f})
+        EXPECT_EQ(settleLight(soft), soft);
+}
+
+TEST(ShadowFilter, ASlopePredictsTheDepthsOfAPlaneInASpotsMap) {
+    const dvec3 light(0, 5, 1);
+    const dvec3 from(0.1, 0.0, 0.2);
+    const dvec3 along(1, 0.3, 0);
+    const dvec3 across(0, 0.2, 1);
+    const extract::LightView view =
+        extract::fitSpot(light, glm::normalize(dvec3(0.1, -1, 0)), 0.7, 0.01, kSize);
+    const dvec3 normal = glm::normalize(glm::cross(across, along));
+    const vec2 slope = planeSlope(
+        vec4(view.clipFromWorld * dvec4(from, 1.0)),
+        vec4(view.clipFromWorld * dvec4(normal, 0.0)),
+        float(glm::dot(normal, glm::normalize(light - from))),
+        float(view.texelMetres),
+        kSize
+    );
+    const auto placeAt = [&](const dvec3& point) {
+        return placeInMap(vec4(view.clipFromWorld * dvec4(point, 1.0)), vec2(0.0f), kSize);
+    };
+    const ShadowPlace here = placeAt(from);
+    for (const dvec3& way : {along, across, along + across}) {
+        const ShadowPlace there = placeAt(from + 0.3 * way);
+        ASSERT_TRUE(there.isCovered);
+        EXPECT_NEAR(here.depth + dot(slope, there.texel - here.texel), there.depth, 1e-5f);
+    }
+    EXPECT_GT(length(slope), 1e-6f);
+}
+
+TEST(ShadowFilter, ASlopeIsExactInACascade) {
+    const ShadowCascade cascade = makeCascade();
+    const vec3 normal = normalize(vec3(0.5f, -0.3f, 1.0f));
+    const vec3 across = normalize(cross(normal, vec3(0, 1, 0)));
+    const vec3 from(1.0f, 2.0f, 0.5f);
+    const ShadowPlace here = placeInCascade(cascade, from, normal);
+    for (const vec3& way : {across, cross(normal, across)}) {
+        const ShadowPlace there = placeInCascade(cascade, from + 2.0f * way, normal);
+        EXPECT_GT(length(there.texel - here.texel), 5.0f);
+        EXPECT_NEAR(here.depth + dot(here.slope, there.texel - here.texel), there.depth, 1e-5f);
+    }
+    EXPECT_GT(length(here.slope), 1e-3f);
+    EXPECT_EQ(placeInCascade(cascade, from, vec3(1, 0, 0)).slope, vec2(0.0f)) << "from its edge";
+}
+
+TEST(ShadowFilter, AReceiverIsLiftedOffItsSurfaceTowardsItsNormal) {
+    const ShadowCascade cascade = makeCascade();
+    const vec3 point(1.0f, 2.0f, 0.5f);
+    const ShadowPlace level = placeInCascade(cascade, point, vec3(0, 0, 1));
+    EXPECT_EQ(level.texel, findTexel(cascade, point));
+    EXPECT_GT(level.depth, point.z * cascade.depthPerMetre + cascade.depth);
+    const ShadowPlace steep = placeInCascade(cascade, point, normalize(vec3(1, 0, 0.5f)));
+    EXPECT_GT(steep.texel.x, level.texel.x + 0.2f);
+}
+
+TEST(ShadowFilter, ACascadeThatHasAPointHasItLiftedToo) {
+    const ShadowCascade cascade = makeCascade();
+    size_t had = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const vec3 point(-6.0f + 0.004f * float(i), -1.0f, 0.0f);
+        if (!hasPoint(cascade, point))
+            continue;
+        ++had;
+        for (const float x : {-0.999f, 0.999f}) {
+            const vec3 normal(x, 0.0f, sqrt(1.0f - x * x));
+            const ShadowPlace place = placeInCascade(cascade, point, normal);
+            ASSERT_TRUE(coversFilter(place.texel, float(kSize))) << point.x;
+        }
+    }
+    EXPECT_GT(had, 3600u);
+    EXPECT_FALSE(hasPoint(cascade, vec3(std::numeric_limits<float>::quiet_NaN())));
+}
+
+TEST(ShadowFilter, APlaneSeenFromItsEdgeHasNoSlope) {
+    const extract::LightView spot = extract::fitSpot({0, 5, 0}, {0, -1, 0}, 0.7, 0.01, kSize);
+    // Not constant: GLSL copies arrays, C++ does not.
+    vec4 run[2] = {vec4(1.0f), vec4(2.0f)};
+    for (const float cosine : {0.0f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+        const vec2 slope = planeSlope(
+            vec4(spot.clipFromWorld * dvec4(0, 0, 0, 1)),
+            vec4(spot.clipFromWorld * dvec4(0, 0, 1, 0)),
+            cosine,
+            float(spot.texelMetres),
+            kSize
+        );
+        EXPECT_EQ(slope, vec2(0.0f));
+        EXPECT_EQ(planeSlopeOnRun(run, vec3(0, 1, 0), cosine), vec2(0.0f));
+    }
+}
+
+TEST(ShadowFilter, PlacesOutsideOfAMapAreNotCovered) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(placeInMap(vec4(0, 0, 0.5f, 1), vec2(0), kSize).isCovered);
+    for (const vec4& outside :
+         {vec4(0.999f, 0, 0.5f, 1),
+          vec4(0, -0.999f, 0.5f, 1),
+          vec4(0, 0, 0.5f, -1),
+          vec4(nan, 0, 0.5f, 1)})
+        EXPECT_FALSE(placeInMap(outside, vec2(0), kSize).isCovered);
+}
+
+TEST(ShadowFilter, EmptyTexelsHoldNoLightBackEvenBehindTheMapsReach) {
+    const vec3 weights = splineWeights(0.1f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.0f), weights, vec3(-0.5f)), 1.0f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.2f), weights, vec3(-0.5f)), 0.0f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.2f, 0.6f, 0.2f), weights, vec3(0.4f)), 1.0f - weights.y);
+}
+
+TEST(ShadowFilter, AMoverThatOnlyWentElsewhereKeepsItsRayAndNoneIsOfReceiversBehindTheLight) {
+    const vec3 point(1.0f, -2.0f, 0.5f);
+    const vec3 lamp(0, 5, 0);
+    const vec4 aligned = alignPointRay(point, lamp, lamp, vec3(0.3f, 1.0f, 0.0f), disc);
+    EXPECT_EQ(aligned.w, 1.0f);
+    EXPECT_NEAR(length(vec3(aligned) - point), 0.0f, 1e-5f);
+    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), lamp, lamp, vec3(0), ball).w, 0.0f);
+}
+
+TEST(ShadowFilter, RotationOfAFlatMoverPreservesTheRaysPlanePoint) {
+    // The disc has turned under the lamp; the ray passes it off its middle.
+    const vec3 passed(0.7f, 0.0f, -0.4f);
+    const vec3 lamp(0.2f, 4.0f, 0.1f);
+    const vec3 seen(-1.0f, 3.5f, 0.4f);
+    const vec3 receiver = seen + 1.6f * (passed - seen);
+    const vec4 byPoint = alignPointRay(receiver, seen, lamp, vec3(0.0f), disc);
+    ASSERT_EQ(byPoint.w, 1.0f);
+    // Where the ray from the lamp through the aligned point is level with the disc.
+    const vec3 aligned(byPoint);
+    const float share = lamp.y / (lamp.y - aligned.y);
+    const vec3 met = lamp + (aligned - lamp) * share;
+    EXPECT_NEAR(met.x, passed.x, 5e-3f);
+    EXPECT_NEAR(met.z, passed.z, 5e-3f);
+}
+
+TEST(ShadowFilter, ARayMeetsSpheresBetweenItsEndsAlone) {
+    const vec4 sphere(0.0f, 3.0f, 0.0f, 1.0f);
+    EXPECT_TRUE(meetsSphere(vec3(0.9f, 0, 0), vec3(0, 1, 0), 10.0f, sphere));
+    EXPECT_FALSE(meetsSphere(vec3(1.1f, 0, 0), vec3(0, 1, 0), 10.0f, sphere));
+    EXPECT_FALSE(meetsSphere(vec3(0), vec3(0, 1, 0), 1.5f, sphere)) << "the light is before it";
+    EXPECT_FALSE(meetsSphere(vec3(0, 5, 0), vec3(0, 1, 0), 10.0f, sphere)) << "it lies behind";
+    EXPECT_TRUE(meetsSphere(vec3(0, 3, 0), vec3(0, 1, 0), 10.0f, sphere)) << "from inside";
 }
 
 } // namespace
