@@ -41,6 +41,8 @@ namespace shutter::faults {
     X(GetFenceStatus)                                                                              \
     X(GetImageMemoryRequirements)                                                                  \
     X(GetImageMemoryRequirements2)                                                                 \
+    X(GetPipelineExecutablePropertiesKHR)                                                          \
+    X(GetPipelineExecutableStatisticsKHR)                                                          \
     X(GetQueryPoolResults)                                                                         \
     X(GetSemaphoreCounterValue)                                                                    \
     X(MapMemory)                                                                                   \
@@ -137,10 +139,20 @@ DeviceTable& addDevice(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr);
 /// Those replaced in other files.
 [[nodiscard]] std::span<const char* const> listOtherCreationNames();
 
-/// Submissions, and every function that reports a lost device.
-[[nodiscard]] std::span<const test::LayerEntry> listLostDevice();
+/// Submissions, every function that reports a lost device, and windows.
+[[nodiscard]] std::span<const test::LayerEntry> listQueueFaults();
 
-/// Windows that change and go away.
-[[nodiscard]] std::span<const test::LayerEntry> listSwapchainFaults();
+/// Pipelines, whose statistics are written down, and submissions, which end at once; nothing where
+/// no folder is set for the statistics.
+[[nodiscard]] std::span<const test::LayerEntry> listStatistics();
+
+/// Creates a device that reports a pipeline's statistics.
+[[nodiscard]] VkResult createMeasured(
+    PFN_vkCreateDevice create,
+    VkPhysicalDevice physical,
+    const VkDeviceCreateInfo& info,
+    const VkAllocationCallbacks* allocator,
+    VkDevice* device
+);
 
 } // namespace shutter::faults

@@ -141,6 +141,7 @@ FaultPlan readPlan() {
         plan.fileBytes = readNumber(bytes);
     }
     plan.countsFile = readVariable("SHUTTER_FAULT_COUNTS");
+    plan.statisticsFolder = readVariable("SHUTTER_FAULT_STATISTICS");
     if (const std::string text = readVariable("SHUTTER_FAULT_HOLD"); !text.empty())
         std::tie(plan.heldPipeline, plan.heldUntil) = readPair(text);
     return plan;

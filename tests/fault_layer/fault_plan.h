@@ -38,8 +38,9 @@ struct FaultPlan {
     std::string countsFile;                         ///< empty: none
     uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`
     uint32_t fileBytes = 0;
-    std::string heldPipeline; ///< name of shaders; pipelines of these wait; empty: none
-    std::string heldUntil;    ///< FIFO that a test opens for writing
+    std::string statisticsFolder; ///< of pipelines that are measured; empty: none
+    std::string heldPipeline;     ///< name of shaders; pipelines of these wait; empty: none
+    std::string heldUntil;        ///< FIFO that a test opens for writing
 
     /// Whether the `number`th call of a function that makes something fails.
     [[nodiscard]] bool failsCreation(const std::string& name, uint32_t number) const {

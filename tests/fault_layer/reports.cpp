@@ -25,39 +25,27 @@ constexpr std::array kLimits{
     SHUTTER_LIMIT(maxImageDimension2D),
     SHUTTER_LIMIT(maxStorageBufferRange),
     SHUTTER_LIMIT(maxMemoryAllocationCount),
-    SHUTTER_LIMIT(maxSamplerAllocationCount),
     SHUTTER_LIMIT(maxPerStageDescriptorSamplers),
     SHUTTER_LIMIT(maxPerStageDescriptorSampledImages),
     SHUTTER_LIMIT(standardSampleLocations),
 };
 #undef SHUTTER_LIMIT
 
-void reportLimits(VkPhysicalDeviceLimits& limits) {
+void report(VkPhysicalDeviceProperties& properties) {
+    properties.deviceType = FaultPlan::get().kind.value_or(properties.deviceType);
     for (const auto& [name, value] : FaultPlan::get().limits) {
         const auto known = std::find_if(kLimits.begin(), kLimits.end(), [&](const Limit& limit) {
             return limit.name == name;
         });
         if (known == kLimits.end())
             refuse("'" + name + "' is no limit that this layer knows");
-        limits.*known->value = std::min(limits.*known->value, value);
+        uint32_t& limit = properties.limits.*known->value;
+        limit = std::min(limit, value);
     }
 }
 
-void report(VkPhysicalDeviceProperties& properties) {
-    reportLimits(properties.limits);
-    properties.deviceType = FaultPlan::get().kind.value_or(properties.deviceType);
-}
-
-VKAPI_ATTR void VKAPI_CALL
-getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {
-    findInstance(device).GetPhysicalDeviceProperties(device, properties);
-    report(*properties);
-}
-
-VKAPI_ATTR void VKAPI_CALL
-getProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
-    findInstance(device).GetPhysicalDeviceProperties2(device, properties);
-    report(properties->properties);
+void report(VkPhysicalDeviceProperties2& properties) {
+    report(properties.properties);
 }
 
 /// A feature, at its place in a struct of a chain.
@@ -102,30 +90,55 @@ bool isHidden(const char* name) {
     return FaultPlan::get().hidden.contains(name);
 }
 
-void hideCoreFeatures(VkPhysicalDeviceFeatures& features) {
+void report(VkPhysicalDeviceFeatures& features) {
     if (isHidden("shaderStorageImageExtendedFormats"))
         features.shaderStorageImageExtendedFormats = VK_FALSE;
     if (isHidden("independentBlend"))
         features.independentBlend = VK_FALSE;
 }
 
-VKAPI_ATTR void VKAPI_CALL
-getFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures* features) {
-    findInstance(device).GetPhysicalDeviceFeatures(device, features);
-    hideCoreFeatures(*features);
-}
-
-VKAPI_ATTR void VKAPI_CALL
-getFeatures2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features) {
-    findInstance(device).GetPhysicalDeviceFeatures2(device, features);
-    hideCoreFeatures(features->features);
-    for (auto* part = static_cast<VkBaseOutStructure*>(features->pNext); part; part = part->pNext)
+void report(VkPhysicalDeviceFeatures2& features) {
+    report(features.features);
+    for (auto* part = static_cast<VkBaseOutStructure*>(features.pNext); part; part = part->pNext)
         for (const Feature& feature : kFeatures)
             if (part->sType == feature.type && isHidden(feature.name))
                 std::memset(
                     reinterpret_cast<char*>(part) + feature.offset, 0, sizeof(VkBool32) // VK_FALSE
                 );
 }
+
+/// One heap each, as large as the device's first.
+void report(VkPhysicalDeviceMemoryProperties& memory) {
+    if (isHidden("hostCoherent"))
+        for (VkMemoryType& type : memory.memoryTypes)
+            type.propertyFlags &= ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_COHERENT_BIT};
+    const auto& types = FaultPlan::get().memoryTypes;
+    if (types.empty())
+        return;
+    const VkMemoryHeap heap = memory.memoryHeaps[0];
+    memory.memoryTypeCount = static_cast<uint32_t>(types.size());
+    memory.memoryHeapCount = 2;
+    memory.memoryHeaps[0] = {heap.size, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+    memory.memoryHeaps[1] = {heap.size, 0};
+    for (uint32_t i = 0; i < types.size(); ++i)
+        memory.memoryTypes[i] = {
+            types[i], (types[i] & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0 ? 0u : 1u};
+}
+
+void report(VkPhysicalDeviceMemoryProperties2& memory) {
+    report(memory.memoryProperties);
+}
+
+/// Replaces a function that describes a physical device.
+template <auto next> struct Describe;
+
+template <class Info, void (VKAPI_PTR* InstanceTable::*next)(VkPhysicalDevice, Info*)>
+struct Describe<next> {
+    static VKAPI_ATTR void VKAPI_CALL call(VkPhysicalDevice device, Info* info) {
+        (findInstance(device).*next)(device, info);
+        report(*info);
+    }
+};
 
 VKAPI_ATTR VkResult VKAPI_CALL enumerateExtensions(
     VkPhysicalDevice device, const char* layer, uint32_t* count, VkExtensionProperties* properties
@@ -151,48 +164,20 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerateExtensions(
     return *count < shown ? VK_INCOMPLETE : VK_SUCCESS;
 }
 
-/// One heap each, as large as the device's first.
-void reportMemory(VkPhysicalDeviceMemoryProperties& memory) {
-    if (isHidden("hostCoherent"))
-        for (VkMemoryType& type : memory.memoryTypes)
-            type.propertyFlags &= ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_COHERENT_BIT};
-    const auto& types = FaultPlan::get().memoryTypes;
-    if (types.empty())
-        return;
-    const VkMemoryHeap heap = memory.memoryHeaps[0];
-    memory.memoryTypeCount = static_cast<uint32_t>(types.size());
-    memory.memoryHeapCount = 2;
-    memory.memoryHeaps[0] = {heap.size, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
-    memory.memoryHeaps[1] = {heap.size, 0};
-    for (uint32_t i = 0; i < types.size(); ++i)
-        memory.memoryTypes[i] = {
-            types[i], (types[i] & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0 ? 0u : 1u};
-}
-
-VKAPI_ATTR void VKAPI_CALL
-getMemory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memory) {
-    findInstance(device).GetPhysicalDeviceMemoryProperties(device, memory);
-    reportMemory(*memory);
-}
-
-VKAPI_ATTR void VKAPI_CALL
-getMemory2(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties2* memory) {
-    findInstance(device).GetPhysicalDeviceMemoryProperties2(device, memory);
-    reportMemory(memory->memoryProperties);
-}
-
 } // namespace
 
 std::span<const test::LayerEntry> listReports() {
+#define SHUTTER_DESCRIBE(name) SHUTTER_ENTRY(name, Describe<&InstanceTable::name>::call)
     static const std::array sEntries{
         SHUTTER_ENTRY(EnumerateDeviceExtensionProperties, enumerateExtensions),
-        SHUTTER_ENTRY(GetPhysicalDeviceFeatures, getFeatures),
-        SHUTTER_ENTRY(GetPhysicalDeviceFeatures2, getFeatures2),
-        SHUTTER_ENTRY(GetPhysicalDeviceMemoryProperties, getMemory),
-        SHUTTER_ENTRY(GetPhysicalDeviceMemoryProperties2, getMemory2),
-        SHUTTER_ENTRY(GetPhysicalDeviceProperties, getProperties),
-        SHUTTER_ENTRY(GetPhysicalDeviceProperties2, getProperties2),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceFeatures),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceFeatures2),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceMemoryProperties),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceMemoryProperties2),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceProperties),
+        SHUTTER_DESCRIBE(GetPhysicalDeviceProperties2),
     };
+#undef SHUTTER_DESCRIBE
     return sEntries;
 }
 

@@ -18,7 +18,7 @@ def pin(build, family):
     folder = pipelines.make_folder()
     try:
         machine = pipelines.Machine(f"{build}/shutter", f"{build}/assets",
-                                    f"{build}/tests/gpu_static/layer", family, folder)
+                                    f"{build}/tests/fault_layer", family, folder)
         for run in machine.render_all():
             if run.status != 0 or run.messages:
                 sys.exit(f"{' '.join(run.arguments)}: {run.messages}")
@@ -35,7 +35,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
     build = str(pipelines.pathlib.Path(sys.argv[1]).resolve())
-    layer = pipelines.pathlib.Path(build, "tests/gpu_static/layer/libshutter_statistics_layer.so")
+    layer = pipelines.pathlib.Path(build, "tests/fault_layer/libshutter_fault_layer.so")
     if not layer.exists():
         sys.exit(f"pin.py: {layer} is missing: without it renders wait forever; build everything first")
     pins = {}
@@ -43,7 +43,11 @@ def main():
         mesa, pins[family] = pin(build, family)
     path = pipelines.path_of_pins(mesa)
     path.parent.mkdir(exist_ok=True)
-    path.write_text(json.dumps(pins, indent=1) + "\n", encoding="utf-8")
+    # A line for each program, so that a difference shows its name.
+    tables = [f"{json.dumps(family)}: {{\n" + ",\n".join(
+        f" {json.dumps(program)}: {json.dumps(pin)}" for program, pin in programs.items()) + "\n}"
+        for family, programs in pins.items()]
+    path.write_text("{\n" + ",\n".join(tables) + "\n}\n", encoding="utf-8")
     print(f"pinned in {path}")
 
 
