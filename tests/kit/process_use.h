@@ -3,11 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <optional>
+#include <string>
 
 namespace shutter::test {
 
 /// Bytes of this process in main memory; nothing if the system does not report it (Linux does).
-[[nodiscard]] std::optional<uint64_t> findResidentBytes();
+[[nodiscard]] inline std::optional<uint64_t> findResidentBytes() {
+    std::ifstream file("/proc/self/status");
+    std::string word;
+    while (file >> word && word != "VmRSS:")
+        ;
+    uint64_t kibibytes = 0;
+    return file >> kibibytes ? std::optional(kibibytes * 1024) : std::nullopt;
+}
 
 } // namespace shutter::test
