@@ -2,9 +2,14 @@
 #include "assets/generator/picture.h"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <mutex>
 #include <stb/stb_image_write.h>
+#include <string_view>
 
 namespace shutter::generator {
 
@@ -18,36 +23,7 @@ int wrap(int value, int period) {
     return ((value % period) + period) % period;
 }
 
-} // namespace
-
-Picture paint(int width, int height, const Painter& painter) {
-    Picture picture{.width = width, .height = height, .rgb = {}};
-    picture.rgb.reserve(static_cast<size_t>(width) * static_cast<size_t>(height) * 3);
-    const glm::vec2 size(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            glm::vec3 sum(0.0f);
-            for (int sample = 0; sample < 4; ++sample) {
-                const glm::vec2 offset(sample % 2 == 0 ? 0.25f : 0.75f, sample < 2 ? 0.25f : 0.75f);
-                sum += painter((glm::vec2(x, y) + offset) / size);
-            }
-            for (int channel = 0; channel < 3; ++channel) {
-                picture.rgb.push_back(toByte(sum[channel] * 0.25f));
-            }
-        }
-    }
-    return picture;
-}
-
-void paintAlpha(Picture& picture, const AlphaPainter& painter) {
-    const glm::vec2 size(picture.width, picture.height);
-    picture.alpha.clear();
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x)
-            picture.alpha.push_back(toByte(painter((glm::vec2(x, y) + 0.5f) / size)));
-}
-
-std::vector<uint8_t> encodePng(const Picture& picture) {
+std::vector<uint8_t> encodeAnew(const Picture& picture) {
     const size_t channels = picture.alpha.empty() ? 3 : 4;
     std::vector<uint8_t> pixels = picture.rgb;
     if (!picture.alpha.empty()) {
@@ -76,6 +52,51 @@ std::vector<uint8_t> encodePng(const Picture& picture) {
         bytes.clear();
     }
     return bytes;
+}
+
+} // namespace
+
+Picture paintAnew(int width, int height, const Painter& painter) {
+    Picture picture{.width = width, .height = height, .rgb = {}};
+    picture.rgb.reserve(static_cast<size_t>(width) * static_cast<size_t>(height) * 3);
+    const glm::vec2 size(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            glm::vec3 sum(0.0f);
+            for (int sample = 0; sample < 4; ++sample) {
+                const glm::vec2 offset(sample % 2 == 0 ? 0.25f : 0.75f, sample < 2 ? 0.25f : 0.75f);
+                sum += painter((glm::vec2(x, y) + offset) / size);
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                picture.rgb.push_back(toByte(sum[channel] * 0.25f));
+            }
+        }
+    }
+    return picture;
+}
+
+void paintAlpha(Picture& picture, const AlphaPainter& painter) {
+    const glm::vec2 size(picture.width, picture.height);
+    picture.alpha.clear();
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            picture.alpha.push_back(toByte(painter((glm::vec2(x, y) + 0.5f) / size)));
+}
+
+std::vector<uint8_t> encodePng(const Picture& picture) {
+    const auto view = [](const std::vector<uint8_t>& bytes) {
+        return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    const std::hash<std::string_view> digest;
+    const std::array key = {
+        static_cast<size_t>(picture.width), digest(view(picture.rgb)), digest(view(picture.alpha))};
+    static std::mutex guard;
+    static std::map<std::array<size_t, 3>, std::vector<uint8_t>> encoded;
+    const std::scoped_lock lock(guard);
+    const auto [found, isNew] = encoded.try_emplace(key);
+    if (isNew)
+        found->second = encodeAnew(picture);
+    return found->second;
 }
 
 float hash(int x, int y, int seed) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace shutter::generator {
@@ -27,9 +28,22 @@ using AlphaPainter = std::function<float(glm::vec2 uv)>;
 void paintAlpha(Picture& picture, const AlphaPainter& painter);
 
 /// Averages four evaluations a pixel, so that edges in `painter` need no filtering of their own.
-[[nodiscard]] Picture paint(int width, int height, const Painter& painter);
+[[nodiscard]] Picture paintAnew(int width, int height, const Painter& painter);
 
-/// The same bytes on every machine. Empty when the encoder fails.
+/// The same. A painter without captures always paints the same picture, at one size: it paints once
+/// in a process, since scenes share textures and painting one of 1024 x 1024 takes half a second.
+template <typename AnyPainter>
+[[nodiscard]] Picture paint(int width, int height, const AnyPainter& painter) {
+    if constexpr (std::is_empty_v<AnyPainter>) {
+        static const Picture painted = paintAnew(width, height, painter);
+        return painted;
+    } else {
+        return paintAnew(width, height, painter);
+    }
+}
+
+/// The same bytes on every machine; a picture is encoded once in a process. Empty when the encoder
+/// fails.
 [[nodiscard]] std::vector<uint8_t> encodePng(const Picture& picture);
 
 /// A value in [0, 1) that depends on the three integers only.
