@@ -27,28 +27,54 @@ if "llvmpipe" not in devices.stdout:
 
 
 class Measured(unittest.TestCase):
-    def measure(self, *options, size="32x18", truth_samples=2):
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run(
-                [SHUTTER, "bench", "--out", folder, "--size", size, "--repeats", "1",
-                 "--truth-samples", str(truth_samples), *options, *ON_SOFTWARE], check=False)
-            self.assertEqual(done.returncode, 0)
-            return json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+    @classmethod
+    def setUpClass(cls):
+        cls.schema = jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text(encoding="utf-8")))
 
-    def validate(self, results):
-        schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-        jsonschema.Draft202012Validator(schema).validate(results)
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def measure(self, *options, size="32x18", truth_samples=2, repeats=1):
+        """Complete results that follow their schema; lines of progress alone were printed."""
+        done = subprocess.run(
+            [SHUTTER, "bench", "--out", self.folder, "--size", size, "--repeats", str(repeats),
+             "--truth-samples", str(truth_samples), *options, *ON_SOFTWARE], check=False,
+            stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.progress = done.stderr.splitlines()
+        for line in self.progress:
+            self.assertRegex(line, "^shutter: measuring .* % done$")
+        results = json.loads((self.folder / "results.json").read_text(encoding="utf-8"))
+        self.schema.validate(results)
         self.assertTrue(results["complete"])
+        self.assertIn("</html>", (self.folder / "index.html").read_text(encoding="utf-8"))
+        return results
 
     def test_the_paper_suite(self):
-        results = self.measure("--suite", "paper", "--methods", "sharp,gather,hybrid,hybrid_paper,resolved,truth")
-        self.validate(results)
+        methods = ["sharp", "gather", "hybrid", "hybrid_paper", "resolved", "truth"]
+        results = self.measure("--suite", "paper", "--methods", ",".join(methods), "--validate", repeats=2)
+        # One line per method, whatever its sample counts.
+        self.assertEqual([line.split("; ")[0] for line in self.progress],
+                         ["shutter: measuring vase: the truth",
+                          *(f"shutter: measuring vase: {method}, method {i} of {len(methods)}"
+                            for i, method in enumerate(methods, 1)),
+                          "shutter: measuring vase: times"])
         case = results["cases"][0]
         counts = {m["method"]: [] for m in case["measurements"]}
         for m in case["measurements"]:
             counts[m["method"]].append(m["samples"])
+            self.assertEqual(m["repeats"], 2)
+            self.assertGreater(m["milliseconds"]["frame"]["median"], 0)
+            # The page holds the pictures of defaults alone.
+            self.assertEqual("image" in m, m["isDefault"])
+            for field in ("image", "errorMap"):
+                self.assertTrue(field not in m or (self.folder / m[field]).is_file())
+            self.assertTrue(m["metrics"]["psnr"] is None or m["metrics"]["psnr"] > 15)
         self.assertEqual(counts["sharp"], [None])
-        self.assertEqual(counts["hybrid"], [4, 8, 15, 16, 32, 64])
+        for method in ("gather", "hybrid"):
+            self.assertEqual(counts[method], [4, 8, 15, 16, 32, 64])
         self.assertEqual(counts["truth"], [1 << i for i in range(9)])
         self.assertEqual(results["equalTime"][0]["reference"]["method"], "resolved")
         self.assertEqual(results["headline"], {"method": "resolved", "baseline": "gather"})
@@ -58,14 +84,12 @@ class Measured(unittest.TestCase):
 
     def test_a_hard_case(self):
         results = self.measure("--suite", "hard", "--case", "spin", "--methods", "sharp,denoised")
-        self.validate(results)
         self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
         self.assertEqual(results["equalTime"], [])
 
     def test_edges_against_the_mean_over_the_pixel(self):
         results = self.measure("--suite", "edges", "--case", "courtyard",
                                "--methods", "sharp,resolved,accumulate", size="64x36", truth_samples=32)
-        self.validate(results)
         self.assertEqual(results["settings"]["pixel"], "box")
         none, taa, box = results["cases"]
         self.assertEqual([(c["name"], c["antiAliasing"]) for c in results["cases"]],
@@ -87,7 +111,6 @@ class Measured(unittest.TestCase):
         methods = ["sharp", "near_far_lens", "hybrid_lens", "lens_then_blur", "blur_then_lens"]
         results = self.measure("--suite", "lens", "--case", "joint", "--rooms", str(ROOMS), "--aa", "box",
                                "--methods", ",".join(["gather", *methods]), size="64x36", truth_samples=32)
-        self.validate(results)
         self.assertEqual(results["settings"]["pixel"], "box")
         for case in results["cases"]:
             reached = {m["method"]: m["metrics"]["linearPsnr"] for m in case["measurements"] if m["isDefault"]}
@@ -103,22 +126,39 @@ class Measured(unittest.TestCase):
     def test_a_film_against_the_mean_over_the_pixel(self):
         results = self.measure("--suite", "sequence", "--case", "spin-play", "--frames", "2",
                                "--pixel", "box", "--aa", "taa", "--methods", "sharp,accumulate", size="64x36")
-        self.validate(results)
         [film] = results["sequences"]
         self.assertEqual((film["name"], film["antiAliasing"]), ("spin-play-taa", "taa"))
         self.assertIsNone(film["truth"]["maxStepPx"])
         self.assertEqual([m["method"] for m in film["measurements"]], ["sharp"])
         self.assertGreater(film["measurements"][0]["metrics"]["flicker"], 0)
 
-    def test_a_played_sequence(self):
-        results = self.measure("--suite", "sequence", "--case", "rally-play", "--frames", "3",
-                               "--methods", "sharp,gather,accumulate,truth", size="64x36")
-        self.validate(results)
-        [film] = results["sequences"]
-        self.assertEqual([(m["method"], m["samples"]) for m in film["measurements"]],
-                         [("sharp", None), ("gather", 15), ("accumulate", 8), ("truth", 4)])
-        self.assertEqual(len(film["measurements"][0]["curves"]["psnr"]), 3)
+    def test_flights_and_demos_are_judged_over_time(self):
+        results = self.measure(
+            "--suite", "sequence", "--case", "courtyard-flight", "--case", "spin-play", "--frames", "4",
+            "--methods", "sharp,resolved,accumulate,truth", "--validate", size="64x36", truth_samples=4)
+        self.assertEqual(self.progress[0],
+                         "shutter: measuring courtyard-flight: frame 1 of 4; 0 % done")
+        self.assertEqual(results["options"][2], "--case courtyard-flight")
+        self.assertEqual(results["settings"]["truthSamples"], 4)
         self.assertEqual(results["cases"], [])
+        self.assertEqual(len(results["sequences"]), 2)
+        for film in results["sequences"]:
+            self.assertEqual(film["frames"], 4)
+            self.assertEqual([(m["method"], m["samples"]) for m in film["measurements"]],
+                             [("sharp", None), ("resolved", 15), ("accumulate", 8), ("truth", 4)])
+            for m in film["measurements"]:
+                self.assertGreater(m["milliseconds"]["frame"]["median"], 0)
+                self.assertGreater(m["metrics"]["psnr"], 15)
+                for metric in ("flicker", "hdrFlip"):
+                    self.assertGreater(m["metrics"][metric], 0)
+                self.assertIsNotNone(m["metrics"]["standingFlicker"])
+                self.assertEqual(len(m["curves"]["psnr"]), 4)
+                self.assertIsNone(m["curves"]["flicker"][0], "there is no frame before the first")
+                self.assertGreater(m["curves"]["flicker"][3], 0)
+                self.assertTrue("film" not in m or (self.folder / m["film"]).is_file())
+            self.assertEqual([len(error["rows"]) for error in film["equalError"]], [4, 4])
+        # Frames go with their film.
+        self.assertFalse((self.folder / "frames/courtyard-flight").exists())
 
 
 if __name__ == "__main__":

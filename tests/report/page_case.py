@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What tests of the report page share: a browser without network, pages of synthetic results."""
 
+import atexit
 import contextlib
 import os
 import pathlib
@@ -28,6 +29,10 @@ if not CHROMIUM or not DRIVER:
     print("skipped: the packages chromium and chromium-driver are missing")
     sys.exit(77)
 
+if not shutil.which("ffmpeg"):
+    print("skipped: the package ffmpeg is missing")
+    sys.exit(77)
+
 MAKE_PAGE = os.environ["SHUTTER_MAKE_PAGE"]
 check = subprocess.run([MAKE_PAGE], stderr=subprocess.PIPE, text=True, check=False)
 if check.returncode == 77:
@@ -50,24 +55,30 @@ def start_browser(profile):
 
 
 class PageCase(unittest.TestCase):
+    """One browser, and one page of each suite, for all classes of a program."""
+
+    browser = None
+
     @classmethod
     def setUpClass(cls):
-        with contextlib.ExitStack() as stack:
-            cls.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
-            cls.results = {}
-            for suite in example_results.SUITES:
-                cls.results[suite] = example_results.write(suite, cls.folder / suite)
-                subprocess.run([MAKE_PAGE, cls.folder / suite], check=True)
-                # The page must be self-contained.
-                (cls.folder / suite / "results.json").unlink()
-                shutil.rmtree(cls.folder / suite / "images")
-                shutil.rmtree(cls.folder / suite / "films", ignore_errors=True)
-            cls.browser = start_browser(cls.folder / "profile")
-            stack.callback(cls.browser.quit)
-            cls.browser.execute_cdp_cmd("Network.enable", {})
-            cls.browser.execute_cdp_cmd("Network.emulateNetworkConditions", {
-                "offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
-            cls.addClassCleanup(stack.pop_all().close)
+        if PageCase.browser:
+            return
+        stack = contextlib.ExitStack()
+        atexit.register(stack.close)
+        PageCase.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        PageCase.results = {}
+        for suite in example_results.SUITES:
+            PageCase.results[suite] = example_results.write(suite, cls.folder / suite)
+            subprocess.run([MAKE_PAGE, cls.folder / suite], check=True)
+            # The page must be self-contained.
+            (cls.folder / suite / "results.json").unlink()
+            shutil.rmtree(cls.folder / suite / "images")
+            shutil.rmtree(cls.folder / suite / "films", ignore_errors=True)
+        PageCase.browser = start_browser(cls.folder / "profile")
+        stack.callback(cls.browser.quit)
+        cls.browser.execute_cdp_cmd("Network.enable", {})
+        cls.browser.execute_cdp_cmd("Network.emulateNetworkConditions", {
+            "offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
 
     def open(self, suite, width=1280, theme="light", media="screen", ready=True):
         """A fresh page in a window so wide and in the reader's theme; not `ready`: it will fail."""

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The report page's pictures in headless Chromium: panels, crops, error maps and the slider."""
 
-import unittest
-
 from page_case import ActionChains, Keys, PageCase, Select, WebDriverWait
 
 
@@ -97,6 +95,3 @@ class Pictures(PageCase):
         self.choose("#slider-region", "1")
         self.assertEqual(len(self.find_all("#slider-frame .viewport.crop")), 2)
 
-
-if __name__ == "__main__":
-    unittest.main()

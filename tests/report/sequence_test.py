@@ -1,16 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Films in the report page in headless Chromium: they show the frame that they should, in step."""
 
-import shutil
-import sys
-import unittest
-
 import example_results
 from page_case import PageCase, By, Keys, WebDriverWait
-
-if shutil.which("ffmpeg") is None:
-    print("skipped: the package ffmpeg is missing")
-    sys.exit(77)
 
 # Number of the frame that each film shows, by its grey, and the colour of its own stripe.
 READ = """
@@ -218,6 +210,3 @@ class Sequence(PageCase):
         self.find('#sequences-legend [data-method="gather"]').click()
         self.assertEqual(set(self.datasets("#sequences-chart")), {"sharp", "resolved"})
 
-
-if __name__ == "__main__":
-    unittest.main()
