@@ -9,6 +9,7 @@
 #include "tests/support/gpu_fixture.h"
 
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <numeric>
@@ -167,17 +168,28 @@ TEST_F(AccelerationStructure, TrianglesWithoutAreaBuild) {
     expectTop(device(), {&structures[0]});
 }
 
-TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
+TEST_F(AccelerationStructure, TopLevelsAndBoxesGrowAndKeepTheirRoomWhenTheyShrink) {
     const Triangles one = makeTriangle(device());
     const auto structures = gpu::buildBlas(device(), Meshes{{one.geometry}});
     gpu::Tlas top;
-    build(device(), top, std::vector{makeInstance(structures.at(0))});
-    const VkAccelerationStructureKHR small = top.structure().handle();
-    build(device(), top, std::vector(100, makeInstance(structures[0])));
-    const VkAccelerationStructureKHR large = top.structure().handle();
-    EXPECT_NE(small, large);
-    build(device(), top, std::vector(3, makeInstance(structures[0])));
-    EXPECT_EQ(top.structure().handle(), large);
+    gpu::BoxBlas boxes;
+    const auto buildTop = [&](size_t count) {
+        build(device(), top, std::vector(count, makeInstance(structures.at(0))));
+        return top.structure().address();
+    };
+    const auto buildBoxes = [&](size_t count) {
+        boxes.prepare(device(), std::vector<gpu::BoxGeometry>(count, {{-1, -1, -1}, {1, 1, 1}}));
+        gpu::runOnce(device(), [&](VkCommandBuffer commands) { boxes.record(device(), commands); });
+        return boxes.structure().address();
+    };
+    for (const auto& buildSome : {std::function<VkDeviceAddress(size_t)>(buildTop), {buildBoxes}}) {
+        const VkDeviceAddress small = buildSome(1);
+        EXPECT_NE(small, 0u);
+        const VkDeviceAddress large = buildSome(100);
+        EXPECT_NE(large, small);
+        EXPECT_EQ(buildSome(3), large);
+    }
+    expectTop(device(), {&boxes.structure()});
 }
 
 TEST_F(AccelerationStructure, ATlasIsBuiltPerInstance) {
@@ -243,21 +255,6 @@ TEST_F(AccelerationStructure, ASetOfTlasesHasOnePerInstance) {
         gpu::fullBarrier(commands);
         tops.record(device(), commands);
     });
-}
-
-TEST_F(AccelerationStructure, BoxesGrowAndKeepTheirRoomWhenTheyShrink) {
-    const auto buildBoxes = [&](gpu::BoxBlas& level, size_t count) {
-        level.prepare(device(), std::vector<gpu::BoxGeometry>(count, {{-1, -1, -1}, {1, 1, 1}}));
-        gpu::runOnce(device(), [&](VkCommandBuffer commands) { level.record(device(), commands); });
-        return level.structure().address();
-    };
-    gpu::BoxBlas level;
-    const VkDeviceAddress small = buildBoxes(level, 1);
-    EXPECT_NE(small, 0u);
-    const VkDeviceAddress large = buildBoxes(level, 100);
-    EXPECT_NE(large, small);
-    EXPECT_EQ(buildBoxes(level, 3), large);
-    expectTop(device(), {&level.structure()});
 }
 
 } // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Choice of a device, errors without one, refusals without rays; and adopted devices: retired
-// objects wait for the host's progress, and the host's own objects are never destroyed.
+// Choice of a device, and errors without one; and adopted devices: retired objects wait for the
+// host's progress, and the host's own objects are never destroyed.
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
-#include "game/shot/picture_drawer.h"
+#include "game/shot/methods.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/picture.h"
-#include "tests/support/stage.h"
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -30,9 +30,10 @@ std::vector<gpu::DeviceInfo> threeDevices() {
         makeInfo("New Card", "discrete", gpu::RayTier::RayQuery)};
 }
 
-void expectMessage(const core::Result<gpu::DeviceInfo>& result, const std::string& part) {
-    ASSERT_FALSE(result.ok());
-    EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+/// Name of the chosen one; else the sentence on why there is none.
+std::string choose(const std::vector<gpu::DeviceInfo>& devices, const std::string& wanted = "") {
+    const auto chosen = gpu::chooseDevice(devices, wanted);
+    return chosen ? chosen.value().name : chosen.error().message;
 }
 
 TEST(DeviceChoice, ASoftwareDeviceIsTheLastDefaultChoiceRegardlessOfItsFeatures) {
@@ -46,10 +47,10 @@ TEST(DeviceChoice, ASoftwareDeviceIsTheLastDefaultChoiceRegardlessOfItsFeatures)
           makeInfo("Virtio-GPU Venus", "virtual", RayTier::None),
           makeInfo("Some Card", "other", RayTier::None),
           makeInfo("NVIDIA H100", "discrete", RayTier::Pipeline)}) {
-        EXPECT_EQ(gpu::chooseDevice({lavapipe, card}, "").value().name, card.name);
-        EXPECT_EQ(gpu::chooseDevice({card, lavapipe}, "").value().name, card.name);
+        EXPECT_EQ(choose({lavapipe, card}), card.name);
+        EXPECT_EQ(choose({card, lavapipe}), card.name);
     }
-    EXPECT_EQ(gpu::chooseDevice({lavapipe}, "").value().name, lavapipe.name);
+    EXPECT_EQ(choose({lavapipe}), lavapipe.name);
 }
 
 TEST(DeviceChoice, AmongCardsRaysOfAnyTierComeFirstThenTheKindThenTheBetterTier) {
@@ -58,9 +59,9 @@ TEST(DeviceChoice, AmongCardsRaysOfAnyTierComeFirstThenTheKindThenTheBetterTier)
     const gpu::DeviceInfo laptop = makeInfo("Laptop", "integrated", RayTier::RayQuery);
     const gpu::DeviceInfo centre = makeInfo("Data Centre", "discrete", RayTier::Pipeline);
     const gpu::DeviceInfo card = makeInfo("New Card", "discrete", RayTier::RayQuery);
-    EXPECT_EQ(gpu::chooseDevice({old, laptop}, "").value().name, "Laptop");
-    EXPECT_EQ(gpu::chooseDevice({old, laptop, centre}, "").value().name, "Data Centre");
-    EXPECT_EQ(gpu::chooseDevice({old, laptop, centre, card}, "").value().name, "New Card");
+    EXPECT_EQ(choose({old, laptop}), "Laptop");
+    EXPECT_EQ(choose({old, laptop, centre}), "Data Centre");
+    EXPECT_EQ(choose({old, laptop, centre, card}), "New Card");
 }
 
 TEST(DeviceChoice, ADeviceThatCanRunAMethodIsFoundForIt) {
@@ -97,45 +98,30 @@ TEST(DeviceChoice, TheTierIsTheBestOneThatIsThereAndAllowed) {
     EXPECT_EQ(gpu::describeTiers({}), "none");
 }
 
-TEST(DeviceChoice, ADeviceThatLacksSomethingIsPassedOver) {
+TEST(DeviceChoice, AWishIsAnIndexOrAPartOfANameAndWhatLacksSomethingIsPassedOver) {
     auto devices = threeDevices();
+    EXPECT_EQ(choose(devices, "1"), "Old Card");
+    EXPECT_EQ(choose(devices, "LLVMPIPE"), "llvmpipe (LLVM 15)");
+    const auto expectRefusal = [&](const std::string& wanted, const char* part) {
+        const std::string sentence = choose(devices, wanted);
+        EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    };
+    expectRefusal("voodoo", "'voodoo'");
+    expectRefusal("voodoo", "2: New Card");
+    expectRefusal("3", "'3'");
     devices[2].missing = "timeline semaphores";
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "Old Card");
+    EXPECT_EQ(choose(devices), "Old Card");
     devices[1].missing = "dynamic rendering";
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
-    expectMessage(gpu::chooseDevice(devices, "old"), "lacks dynamic rendering");
+    EXPECT_EQ(choose(devices), "llvmpipe (LLVM 15)");
+    expectRefusal("old", "lacks dynamic rendering");
     devices[0].missing = "Vulkan 1.3";
-    expectMessage(gpu::chooseDevice(devices, ""), "llvmpipe (LLVM 15) lacks Vulkan 1.3");
-    expectMessage(gpu::chooseDevice({}, ""), "no Vulkan device");
-    expectMessage(gpu::chooseDevice({}, "0"), "no Vulkan device");
+    expectRefusal("", "llvmpipe (LLVM 15) lacks Vulkan 1.3");
+    devices.clear();
+    expectRefusal("", "no Vulkan device");
+    expectRefusal("0", "no Vulkan device");
 }
 
-TEST(DeviceChoice, AWishIsAnIndexOrAPartOfANameAndElseListsWhatThereIs) {
-    const auto devices = threeDevices();
-    EXPECT_EQ(gpu::chooseDevice(devices, "1").value().name, "Old Card");
-    EXPECT_EQ(gpu::chooseDevice(devices, "LLVMPIPE").value().name, "llvmpipe (LLVM 15)");
-    expectMessage(gpu::chooseDevice(devices, "voodoo"), "'voodoo'");
-    expectMessage(gpu::chooseDevice(devices, "voodoo"), "2: New Card");
-    expectMessage(gpu::chooseDevice(devices, "3"), "'3'");
-}
-
-class Devices : public test::GpuTest {
-  protected:
-    static std::unique_ptr<gpu::Device> open(const gpu::DeviceOptions& options) {
-        auto opened = gpu::Device::create(options);
-        EXPECT_TRUE(opened.ok()) << opened.error().message;
-        return opened ? std::move(opened).value() : nullptr;
-    }
-};
-
-TEST_F(Devices, AWishForOneThatIsNotThereIsAnError) {
-    gpu::DeviceOptions options;
-    options.wanted = "no such device";
-    const auto opened = gpu::Device::create(options);
-    ASSERT_FALSE(opened.ok());
-    EXPECT_NE(opened.error().message.find("'no such device'"), std::string::npos);
-    EXPECT_NE(opened.error().message.find(device().info().name), std::string::npos);
-}
+using Devices = test::GpuTest;
 
 /// Vulkan defines loads past the end of a binding: lavapipe returns 0 on every device, so no
 /// picture here could show a difference.
@@ -143,36 +129,13 @@ TEST_F(Devices, AValidatedOneChecksBounds) {
     EXPECT_TRUE(device().checksBounds());
     gpu::DeviceOptions options;
     options.wanted = device().info().name;
-    EXPECT_FALSE(open(options)->checksBounds());
-    options.bounds = gpu::Bounds::Checked;
-    EXPECT_TRUE(open(options)->checksBounds());
-}
-
-TEST_F(Devices, ADeviceWithoutRaysRefusesHybridAndDrawsGatherUnchanged) {
-    gpu::DeviceOptions options;
-    options.validate = true;
-    options.bestTier = gpu::RayTier::None;
-    const auto lower = open(options);
-    ASSERT_TRUE(lower);
-    EXPECT_FALSE(lower->hasRays());
-    const core::Status refused = game::PictureDrawer::check(
-        *lower, game::makeMethod(*game::findMethod("hybrid").value()), 64, 48
-    );
-    ASSERT_FALSE(refused.ok());
-    EXPECT_NE(refused.error().message.find("hybrid"), std::string::npos);
-    EXPECT_NE(refused.error().message.find("ray"), std::string::npos);
-    test::SceneBuilder scene;
-    scene.setPixelView(48);
-    scene.add(test::makeQuad(80, 60, scene.addColor({0, 1, 0})), {.position = {0, 0, -20}});
-    scene.add(
-        test::makeQuad(16, 16, scene.addColor({1, 0, 0})),
-        {.position = {0, 0, -10}, .velocity = {9, 0, 0}}
-    );
-    const test::Shot shot{.method = "gather", .width = 64, .height = 48};
-    const auto with = test::renderOnce(device(), scene, shot);
-    const auto without = test::renderOnce(*lower, scene, shot);
-    EXPECT_TRUE(test::sameBits(with.color, without.color));
-    EXPECT_EQ(lower->validationMessageCount(), 0u);
+    for (const bool isChecked : {false, true}) {
+        if (isChecked)
+            options.bounds = gpu::Bounds::Checked;
+        const auto opened = gpu::Device::create(options);
+        ASSERT_TRUE(opened.ok()) << opened.error().message;
+        EXPECT_EQ(opened.value()->checksBounds(), isChecked);
+    }
 }
 
 class AdoptedDevice : public test::GpuTest {
@@ -265,12 +228,13 @@ TEST_F(AdoptedDevice, AnAdoptedImageKeepsTheHostsImage) {
 }
 
 TEST_F(AdoptedDevice, ANullHandleIsNamed) {
-    const auto noDevice = gpu::Device::adopt({device().physical(), VK_NULL_HANDLE});
-    ASSERT_FALSE(noDevice.ok());
-    EXPECT_NE(noDevice.error().message.find("device is null"), std::string::npos);
-    const auto noPhysical = gpu::Device::adopt({VK_NULL_HANDLE, device().handle()});
-    ASSERT_FALSE(noPhysical.ok());
-    EXPECT_NE(noPhysical.error().message.find("physical is null"), std::string::npos);
+    for (const auto& [handles, sentence] :
+         {std::pair{gpu::HostDevice{.physical = device().physical()}, "device is null"},
+          {gpu::HostDevice{.device = device().handle()}, "physical is null"}}) {
+        const auto refused = gpu::Device::adopt(handles);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_NE(refused.error().message.find(sentence), std::string::npos);
+    }
 }
 
 using AdoptedDeviceDeathTest = AdoptedDevice;

@@ -18,12 +18,12 @@
 #include "shaders/common/shutter_response.glsl"
 #include "shaders/motion_blur/gather_shared.h"
 #include "tests/gpu/effect_rig.h"
+#include "tests/gpu/other_device.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -160,44 +160,20 @@ TEST_F(Pipelines, VariantsDrawWhatThePipelineForAllDraws) {
         }
 }
 
-/// Tests with a separate device.
-class OwnDevice : public test::GpuTest {
-  protected:
-    void open(uint32_t kept, gpu::PipelinesAhead ahead = {}) {
-        gpu::DeviceOptions options;
-        options.validate = true;
-        options.wanted = device().info().name;
-        options.keptPipelines = kept;
-        options.pipelinesAhead = ahead;
-        auto made = gpu::Device::create(options);
-        ASSERT_TRUE(made) << made.error().message;
-        mOwn = std::move(made).value();
-    }
+using OwnDevice = test::OtherDeviceTest;
 
-    void TearDown() override {
-        if (mOwn) {
-            mOwn->waitIdle();
-            EXPECT_EQ(mOwn->validationMessageCount(), 0u);
-        }
-        mOwn.reset();
-        GpuTest::TearDown();
-    }
-
-    std::unique_ptr<gpu::Device> mOwn;
-};
-
-using KeptPipelines = OwnDevice;
-
-TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfItUnlessItIsInUse) {
-    open(4);
+TEST_F(OwnDevice, AKeptPipelineIsHandedOverWithAllThatIsKnownOfItUnlessItIsInUse) {
+    gpu::DeviceOptions options;
+    options.keptPipelines = 4;
+    open(options);
     VkPipeline first = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     {
-        const gpu::Pipeline pipeline(*mOwn, test::describeScalePipeline());
+        const gpu::Pipeline pipeline(*mOther, test::describeScalePipeline());
         first = pipeline.handle();
         layout = pipeline.layout();
     }
-    const gpu::Pipeline again(*mOwn, test::describeScalePipeline());
+    const gpu::Pipeline again(*mOther, test::describeScalePipeline());
     EXPECT_EQ(again.handle(), first);
     EXPECT_EQ(again.layout(), layout);
     EXPECT_EQ(again.name(), "scale");
@@ -206,45 +182,43 @@ TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfItUnlessItIsInUse) 
     EXPECT_NE(again.setLayout(), VkDescriptorSetLayout(VK_NULL_HANDLE));
     const auto key = gpu::makePipelineKey(test::describeScalePipeline());
     {
-        const gpu::Pipeline other(*mOwn, test::describeScalePipeline());
+        const gpu::Pipeline other(*mOther, test::describeScalePipeline());
         EXPECT_NE(again.handle(), other.handle()) << "the first is in use";
     }
     gpu::ComputePipelineDesc desc = test::describeScalePipeline();
     desc.name = "other";
-    const gpu::Pipeline other(*mOwn, desc);
-    const auto kept = mOwn->takePipeline(key);
+    const gpu::Pipeline other(*mOther, desc);
+    const auto kept = mOther->takePipeline(key);
     ASSERT_TRUE(kept) << "another name is another pipeline";
-    mOwn->giveUpPipeline(key, *kept);
+    mOther->giveUpPipeline(key, *kept);
 }
 
-TEST_F(KeptPipelines, OnlyTheTextureLayoutIsCachedWithoutTheOption) {
-    open(0);
-    { const gpu::Pipeline gone(*mOwn, test::describeScalePipeline()); }
-    EXPECT_FALSE(mOwn->keepsPipelines());
-    EXPECT_FALSE(mOwn->takePipeline(gpu::makePipelineKey(test::describeScalePipeline())));
-    EXPECT_EQ(mOwn->textureLayout(3), mOwn->textureLayout(3));
-    EXPECT_NE(mOwn->textureLayout(3), mOwn->textureLayout(4));
+TEST_F(OwnDevice, OnlyTheTextureLayoutIsCachedWithoutTheOption) {
+    open({});
+    { const gpu::Pipeline gone(*mOther, test::describeScalePipeline()); }
+    EXPECT_FALSE(mOther->keepsPipelines());
+    EXPECT_FALSE(mOther->takePipeline(gpu::makePipelineKey(test::describeScalePipeline())));
+    EXPECT_EQ(mOther->textureLayout(3), mOther->textureLayout(3));
+    EXPECT_NE(mOther->textureLayout(3), mOther->textureLayout(4));
 }
 
 TEST_F(OwnDevice, PipelinesAheadOfTimeNoFrameWaitsForAVariant) {
-    open(0, gpu::PipelinesAhead::Always);
-    gpu::Device& ahead = *mOwn;
-    ASSERT_TRUE(ahead.makesPipelinesAhead());
-    {
-        const TapPipelines taps(ahead, describeGather(), TapVariants::Made);
-        const TapPipelines general(ahead, describeGather(), TapVariants::None);
-        const gpu::Pipeline* const first = &taps.find(makeParams(15));
-        EXPECT_EQ(taps.variantCount(), 1u);
-        // The general one is used until the special one is ready, and no longer.
-        const gpu::Pipeline* found = first;
-        for (int i = 0; i < 2000 && found == first; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            found = &taps.find(makeParams(15));
-        }
-        EXPECT_NE(found, first);
-        EXPECT_EQ(&taps.find(makeParams(15)), found);
-        EXPECT_EQ(&taps.find(makeParams(9)), first) << "for another number it stands in again";
+    gpu::DeviceOptions options;
+    options.pipelinesAhead = gpu::PipelinesAhead::Always;
+    open(options);
+    ASSERT_TRUE(mOther->makesPipelinesAhead());
+    const TapPipelines taps(*mOther, describeGather(), TapVariants::Made);
+    const gpu::Pipeline* const first = &taps.find(makeParams(15));
+    EXPECT_EQ(taps.variantCount(), 1u);
+    // The general one is used until the special one is ready, and no longer.
+    const gpu::Pipeline* found = first;
+    for (int i = 0; i < 2000 && found == first; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        found = &taps.find(makeParams(15));
     }
+    EXPECT_NE(found, first);
+    EXPECT_EQ(&taps.find(makeParams(15)), found);
+    EXPECT_EQ(&taps.find(makeParams(9)), first) << "for another number it stands in again";
 }
 
 class Bindings : public test::GpuTest {};

@@ -29,7 +29,7 @@ TEST(BindingTable, GroupsAreAlignedAsTheDeviceRequires) {
     }
 }
 
-/// A second device of the tier below.
+/// A second device of the tier below, which keeps its pipelines for all tests.
 class RayPipelineTier : public test::GpuTest {
   protected:
     void SetUp() override {
@@ -38,30 +38,35 @@ class RayPipelineTier : public test::GpuTest {
             return;
         if (!device().info().hasRayPipeline || !device().hasRayQuery())
             GTEST_SKIP() << "the device lacks one of the tiers";
-        open("");
+        if (!sLower)
+            open("");
     }
 
     /// \param hidden feature
-    void open(const std::string& hidden) {
+    static void open(const std::string& hidden) {
         gpu::DeviceOptions options;
         options.validate = true;
         options.bestTier = gpu::RayTier::Pipeline;
         options.wanted = device().info().name;
+        options.keptPipelines = 64;
         auto opened = test::openFaulty(options, "SHUTTER_FAULT_HIDE", hidden);
         ASSERT_TRUE(opened.ok()) << opened.error().message;
-        mLower = std::move(opened).value();
+        sLower = std::move(opened).value();
     }
 
     void TearDown() override {
-        if (mLower) {
-            mLower->waitIdle();
-            EXPECT_EQ(mLower->validationMessageCount(), 0u);
+        if (sLower) {
+            sLower->waitIdle();
+            EXPECT_EQ(sLower->validationMessageCount(), 0u);
+            if (!sLower->info().tracesIndirect)
+                sLower.reset(); // the other tests launch indirectly
         }
-        mLower.reset();
         GpuTest::TearDown();
     }
 
-    gpu::Device& lower() { return *mLower; }
+    static void TearDownTestSuite() { sLower.reset(); }
+
+    gpu::Device& lower() { return *sLower; }
 
     /// Everything that the reveal writes, and the picture, are the same by both tiers. Hits are
     /// bit-identical on the software device; elsewhere a hit's place may differ by its rounding,
@@ -101,8 +106,7 @@ class RayPipelineTier : public test::GpuTest {
         EXPECT_TRUE(otherIds == 0 || bound > 0.0) << otherIds;
     }
 
-  private:
-    std::unique_ptr<gpu::Device> mLower;
+    static inline std::unique_ptr<gpu::Device> sLower;
 };
 
 /// A mover of two shells before a pane, a leafy sheet, a mirrored box and a wall.
