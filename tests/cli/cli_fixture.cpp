@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "tests/cli/cli_fixture.h"
 
+#include "game/cli/commands.h"
+#include "game/options/program.h"
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
@@ -28,6 +35,40 @@ void redirect(const fs::path& path, int descriptor) {
     close(file);
 }
 
+/// What the programs of all tests keep for one another: pipelines are compiled once.
+const fs::path& findCaches() {
+    static const struct Folder {
+        fs::path path = fs::temp_directory_path() / fmt::format("shutter_cli_{}_caches", getpid());
+
+        ~Folder() {
+            std::error_code ignored;
+            fs::remove_all(path, ignored);
+        }
+    } caches;
+
+    return caches.path;
+}
+
+/// Null at the end. The words must outlive it.
+std::vector<char*> pointTo(Arguments& words) {
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return argv;
+}
+
+/// The program, of which `compare` is the only command, in this process.
+int runComparison(Arguments words) {
+    words.insert(words.begin(), "shutter");
+    std::vector<char*> argv = pointTo(words);
+    CLI::App app("", "shutter");
+    app.require_subcommand(1);
+    int exitStatus = game::kExitDone;
+    game::addCompareCommand(app, exitStatus);
+    return game::runProgram(app, static_cast<int>(words.size()), argv.data(), exitStatus);
+}
+
 } // namespace
 
 Cli::Cli() {
@@ -48,23 +89,43 @@ Cli::~Cli() {
 pid_t Cli::start(const Arguments& arguments) const {
     Arguments words = mProgram;
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = pointTo(words);
+    findCaches();
     const pid_t child = fork();
     if (child != 0)
         return child;
     redirect(mLogs / "out", STDOUT_FILENO);
     redirect(mLogs / "err", STDERR_FILENO);
-    setenv("XDG_CACHE_HOME", mLogs.c_str(), 1);
+    setenv("XDG_CACHE_HOME", findCaches().c_str(), 1);
     if (chdir(mFolder.c_str()) == 0)
         execvp(argv[0], argv.data());
     _exit(127);
 }
 
 Outcome Cli::run(const Arguments& arguments) const {
-    return finish(start(arguments));
+    return mComparesHere ? compare(arguments) : finish(start(arguments));
+}
+
+Outcome Cli::compare(const Arguments& arguments) const {
+    const fs::path before = fs::current_path();
+    std::fflush(stdout);
+    const std::array own = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
+    redirect(mLogs / "out", STDOUT_FILENO);
+    redirect(mLogs / "err", STDERR_FILENO);
+    fs::current_path(mFolder);
+    const int status = runComparison(arguments);
+    fs::current_path(before);
+    std::fflush(stdout);
+    dup2(own[0], STDOUT_FILENO);
+    dup2(own[1], STDERR_FILENO);
+    for (const int descriptor : own)
+        close(descriptor);
+    return {status, readAll(mLogs / "out"), readAll(mLogs / "err")};
+}
+
+Outcome Cli::stop(pid_t process, int signal) const {
+    kill(process, signal);
+    return finish(process);
 }
 
 Outcome Cli::finish(pid_t process) const {
@@ -79,9 +140,21 @@ Outcome Cli::finish(pid_t process) const {
 
 Arguments Cli::renderVase(const Arguments& more) const {
     Arguments arguments = {"render", SHUTTER_ASSETS "/vase.glb", "--size", "64x36"};
+    if (std::find(more.begin(), more.end(), "--method") == more.end())
+        arguments.insert(arguments.end(), {"--method", "sharp"});
     arguments.insert(arguments.end(), kOnSoftware.begin(), kOnSoftware.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
+}
+
+Arguments Cli::join(Arguments first, const Arguments& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+void Cli::expectRefusals(const std::vector<Refusal>& refusals) const {
+    for (const Refusal& refusal : refusals)
+        expectRefusal(refusal.arguments, refusal.status, refusal.mentions);
 }
 
 void Cli::expectRefusal(const Arguments& arguments, int status, const Arguments& mentions) const {
@@ -106,6 +179,25 @@ Outcome Cli::expectSuccess(const Arguments& arguments) const {
     return outcome;
 }
 
+std::string Cli::expectPrinted(const Arguments& arguments, const Arguments& parts) const {
+    std::string out = expectSuccess(arguments).out;
+    for (const std::string& part : parts)
+        EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
+    return out;
+}
+
+void Cli::expectWarned(const Arguments& arguments, const std::string& part) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+}
+
+void Cli::expectFailure(const Arguments& arguments, const std::string& part) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, kFailed);
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+}
+
 void Cli::writeFile(const std::string& name, const std::string& content) const {
     std::ofstream(mFolder / name, std::ios::binary) << content;
 }
@@ -122,7 +214,9 @@ std::set<std::string> Cli::listFiles() const {
 }
 
 void Cli::requireDevice() const {
-    if (run({"info", "--devices"}).out.find("llvmpipe") == std::string::npos)
+    static const bool isThere =
+        run({"info", "--devices"}).out.find("llvmpipe") != std::string::npos;
+    if (!isThere)
         GTEST_SKIP() << "lavapipe is not installed";
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `shutter film`: drawn in parts, a film is the same bits as drawn by one process, stopped or not.
 #include "tests/cli/cli_fixture.h"
-#include "tests/cli/drifting_scene.h"
-#include "tests/cli/fake_slurm.h"
 #include "tests/cli/folder_watch.h"
 
 #include <fmt/format.h>
@@ -12,18 +10,55 @@
 #include <filesystem>
 #include <fstream>
 #include <sys/types.h>
-#include <sys/wait.h>
+#include <utility>
 #include <vector>
 
 namespace shutter::cli {
 
 namespace {
 
+/// Two triangles that drift to and fro against one another, one of glass, and particles that the
+/// other one emits. No camera.
+constexpr const char* kGlassScene =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2]}],
+        "nodes": [
+            {"mesh": 0, "children": [3]},
+            {"mesh": 1},
+            {"children": [1], "translation": [2, 0.3, 0.5], "scale": [-1, 1, 1]},
+            {"extras": {"particles": {
+                "spans": [{"fromSeconds": -3, "perSecond": 30}], "lifeSeconds": 0.6,
+                "lifeSpread": 0.5, "velocity": [0, 2, 0], "coneDegrees": 50, "sizeBirth": 0.3,
+                "inherit": 1, "gravity": [0, -3, 0], "drag": 0.5}}}],
+        "materials": [
+            {"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.3, 0.2, 1]}},
+            {"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.5, 0.9, 0.6]},
+             "alphaMode": "BLEND", "doubleSided": true}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]},
+                   {"primitives": [{"attributes": {"POSITION": 0}, "material": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+             "min": [-1, -1, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5126, "count": 7, "type": "SCALAR",
+             "min": [0], "max": [6]},
+            {"bufferView": 2, "componentType": 5126, "count": 7, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36},
+            {"buffer": 0, "byteOffset": 36, "byteLength": 28},
+            {"buffer": 0, "byteOffset": 64, "byteLength": 84}],
+        "animations": [{"name": "drift", "samplers": [{"input": 1, "output": 2}],
+            "channels": [
+                {"sampler": 0, "target": {"node": 0, "path": "translation"}},
+                {"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
+        "buffers": [{"byteLength": 148, "uri": "data:application/octet-stream;base64,)"
+    "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAABA"
+    "AABAQAAAgEAAAKBAAADAQAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAA=="
+    R"("}]})";
+
 /// The processes that a process has started, and that run.
 std::vector<pid_t> listChildren(pid_t process) {
     std::vector<pid_t> children;
-    for (const auto& thread :
-         std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+    for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
         std::ifstream list(thread.path() / "children");
         for (pid_t child = 0; list >> child;)
             children.push_back(child);
@@ -57,9 +92,18 @@ class Film : public Cli {
             fmt::format("-1:{}", kFrames - 2),
             "--out",
             out};
-        arguments.insert(arguments.end(), kOnSoftware.begin(), kOnSoftware.end());
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return arguments;
+        return join(join(arguments, kOnSoftware), more);
+    }
+
+    /// The frames of the film as one process draws them.
+    [[nodiscard]] const std::vector<std::string>& drawWhole() const {
+        static std::vector<std::string> frames;
+        if (frames.empty()) {
+            fs::create_directory(path("whole"));
+            expectSuccess(draw("render", "whole/f_%d.exr"));
+            frames = readFrames("whole");
+        }
+        return frames;
     }
 
     [[nodiscard]] std::vector<std::string> readFrames(const std::string& folder) const {
@@ -76,18 +120,6 @@ class Film : public Cli {
             for (const pid_t own : listChildren(child))
                 drawing.push_back(own);
         return drawing;
-    }
-
-    /// Starts the film `out` in one part and kills the process that draws it after two frames.
-    /// \return the output of the film's own process
-    Outcome killPart(const std::string& folder, const Arguments& film) const {
-        const FolderWatch watch(path(folder));
-        const pid_t process = start(film);
-        // The logs' folder, the part's journal and its temporary file, and two of each picture.
-        watch.waitFor(7, process);
-        for (const pid_t child : listDrawing(process))
-            kill(child, SIGKILL);
-        return finish(process);
     }
 };
 
@@ -111,29 +143,27 @@ TEST_F(Film, AFilmDrawnInPartsEqualsThatOfOneProcess) {
     EXPECT_GT(frames.size(), 1u) << "it moves";
     Arguments one = draw("render", "one.png", {"--explain"});
     one[9] = "9:9";
-    const std::string printed = expectSuccess(one).out;
-    for (const char* work : {"blended instants", "particles live in its exposure"})
-        EXPECT_NE(printed.find(work), std::string::npos) << printed;
+    expectPrinted(one, {"blended instants", "particles live in its exposure"});
     // Nothing of the parts is left, and both commands know the complete frames.
     EXPECT_FALSE(fs::exists(path("parts.mp4.parts")));
     for (const std::string& file : listFiles())
         EXPECT_EQ(file.find(".part_"), std::string::npos) << file;
-    EXPECT_EQ(
-        expectSuccess(parts).out, "parts.mp4: is complete and skipped (--restart draws it)\n"
-    );
-    EXPECT_EQ(
-        expectSuccess(draw("render", "parts.mp4")).out,
-        "parts.mp4: is complete and skipped (--restart draws it)\n"
-    );
+    const std::string skipped = "parts.mp4: is complete and skipped (--restart draws it)\n";
+    EXPECT_EQ(expectSuccess(parts).out, skipped);
+    EXPECT_EQ(expectSuccess(draw("render", "parts.mp4")).out, skipped);
 }
 
 TEST_F(Film, APartThatIsKilledGoesOnWhereItStopped) {
-    fs::create_directory(path("whole"));
     fs::create_directory(path("parts"));
-    expectSuccess(draw("render", "whole/f_%d.exr"));
     const Arguments film = draw("film", "parts/f_%d.exr");
-    const Outcome killed = killPart("parts", film);
-    EXPECT_EQ(killed.status, 1);
+    const FolderWatch watch(path("parts"));
+    const pid_t process = start(film);
+    // The logs' folder, the part's journal and its temporary file, and two of each picture.
+    watch.waitFor(7, process);
+    for (const pid_t child : listDrawing(process))
+        kill(child, SIGKILL);
+    const Outcome killed = finish(process);
+    EXPECT_EQ(killed.status, kFailed);
     EXPECT_NE(killed.err.find("part 1 ended with status 137"), std::string::npos) << killed.err;
     ASSERT_TRUE(fs::exists(path("parts/f_-1.exr")));
     ASSERT_FALSE(fs::exists(path(fmt::format("parts/f_{}.exr", kFrames - 2))))
@@ -141,27 +171,24 @@ TEST_F(Film, APartThatIsKilledGoesOnWhereItStopped) {
     const auto before = fs::last_write_time(path("parts/f_-1.exr"));
 
     // What draws may not change on the way.
-    const Outcome other = run(draw("film", "parts/f_%d.exr", {"--unlit"}));
-    EXPECT_EQ(other.status, 1);
-    EXPECT_NE(other.err.find("were drawn otherwise"), std::string::npos) << other.err;
+    expectFailure(draw("film", "parts/f_%d.exr", {"--unlit"}), "were drawn otherwise");
     expectRefusal(
-        draw("render", "parts/f_%d.exr", {"--unlit"}), 1, {"--out", "drawn otherwise", "--restart"}
+        draw("render", "parts/f_%d.exr", {"--unlit"}),
+        kFailed,
+        {"--out", "drawn otherwise", "--restart"}
     );
 
     expectSuccess(film);
-    EXPECT_TRUE(readFrames("parts") == readFrames("whole"));
+    EXPECT_TRUE(readFrames("parts") == drawWhole());
     EXPECT_TRUE(fs::last_write_time(path("parts/f_-1.exr")) == before) << "it was drawn again";
     EXPECT_FALSE(fs::exists(path("parts/.f_%d.exr.parts")));
-    const auto again = expectSuccess(draw("render", "parts/f_%d.exr"));
-    EXPECT_NE(
-        again.out.find(fmt::format("{0} of {0} frames are complete", kFrames)), std::string::npos
-    ) << again.out;
+    expectPrinted(
+        draw("render", "parts/f_%d.exr"), {fmt::format("{0} of {0} frames are complete", kFrames)}
+    );
 }
 
 TEST_F(Film, PartsOfAnotherNumberTakeOverWhatWasDrawn) {
-    fs::create_directory(path("whole"));
     fs::create_directory(path("parts"));
-    expectSuccess(draw("render", "whole/f_%d.exr"));
     EXPECT_EQ(expectSuccess(draw("render", "parts/f_%d.exr", {"--part", "2/3"})).out, "");
     const auto before = fs::last_write_time(path("parts/f_0.exr"));
     EXPECT_FALSE(fs::exists(path("parts/f_-1.exr")));
@@ -172,7 +199,7 @@ TEST_F(Film, PartsOfAnotherNumberTakeOverWhatWasDrawn) {
         "parts/f_%d.exr: 4 of 12 frames are complete on disk and skipped (--restart draws them)\n"
     );
     expectSuccess(draw("film", "parts/f_%d.exr", {"--jobs", "2", "--parts", "5"}));
-    EXPECT_TRUE(readFrames("parts") == readFrames("whole"));
+    EXPECT_TRUE(readFrames("parts") == drawWhole());
     EXPECT_TRUE(fs::last_write_time(path("parts/f_0.exr")) == before) << "it was drawn again";
     // With --restart, any program and device may draw it.
     expectSuccess(draw("film", "parts/f_%d.exr", {"--unlit", "--restart"}));
@@ -188,8 +215,7 @@ TEST_F(Film, TheProcessesOfPartsEndWithTheFilms) {
     watch.waitFor(9, process);
     const std::vector<pid_t> children = listDrawing(process);
     EXPECT_EQ(children.size(), 2u);
-    kill(process, SIGINT);
-    EXPECT_EQ(finish(process).status, 128 + SIGINT);
+    EXPECT_EQ(stop(process, SIGINT).status, 128 + SIGINT);
     for (const pid_t child : children)
         EXPECT_TRUE(kill(child, 0) != 0) << "it was waited for";
     int pictures = 0;
@@ -198,8 +224,48 @@ TEST_F(Film, TheProcessesOfPartsEndWithTheFilms) {
     EXPECT_GT(pictures, 0);
 }
 
+/// Programs of Slurm, first on PATH, that record their arguments in the file `calls`.
+class FakeSlurm {
+  public:
+    explicit FakeSlurm(fs::path folder) : mFolder(std::move(folder)) {
+        const char* path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
+        mPath = path ? path : "";
+        fs::create_directory(mFolder / "bin");
+        setenv( // NOLINT(concurrency-mt-unsafe)
+            "PATH",
+            ((mFolder / "bin").string() + ":" + mPath).c_str(),
+            1
+        );
+    }
+
+    ~FakeSlurm() { setenv("PATH", mPath.c_str(), 1); } // NOLINT(concurrency-mt-unsafe)
+
+    FakeSlurm(const FakeSlurm&) = delete;
+    FakeSlurm& operator=(const FakeSlurm&) = delete;
+
+    void writeProgram(const std::string& name, const std::string& body) const {
+        const fs::path file = mFolder / "bin" / name;
+        std::ofstream(file) << fmt::format(
+            "#!/bin/sh\nprintf '%s\\n' {} \"$@\" >> '{}'\n{}",
+            name,
+            (mFolder / "calls").string(),
+            body
+        );
+        fs::permissions(file, fs::perms::owner_all);
+    }
+
+  private:
+    fs::path mFolder;
+    std::string mPath;
+};
+
 class FilmBySlurm : public Film {
   protected:
+    FilmBySlurm() {
+        for (const char* name : {"squeue", "scancel"})
+            mSlurm.writeProgram(name, "");
+    }
+
     FakeSlurm mSlurm{path("")};
 };
 
@@ -207,8 +273,6 @@ TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsArePrinted) {
     mSlurm.writeProgram(
         "sbatch", "case \"$*\" in *--array*) echo '7;cluster';; *) echo 8;; esac\n"
     );
-    for (const char* name : {"squeue", "scancel"})
-        mSlurm.writeProgram(name, "");
     const Arguments film = draw(
         "film",
         "it's f_%d.exr",
@@ -239,28 +303,10 @@ TEST_F(FilmBySlurm, PartsWhoseFilmCannotBeFinishedAreCancelled) {
         "case \"$*\" in *--array*) echo 7;; *) echo 'sbatch: error: no more jobs' >&2; exit 1;; "
         "esac\n"
     );
-    for (const char* name : {"squeue", "scancel"})
-        mSlurm.writeProgram(name, "");
     const Outcome outcome = run(draw("film", "f_%d.exr", {"--slurm", "--parts", "3"}));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.err, "shutter: sbatch ended with status 1: sbatch: error: no more jobs\n");
     EXPECT_TRUE(readFile("calls").ends_with("scancel\n7\n")) << readFile("calls");
-}
-
-TEST_F(Film, ContradictionsAreRefusedBeforeAnythingIsWritten) {
-    const auto refuse = [&](const Arguments& more, const Arguments& mentions, int status = 2) {
-        expectRefusal(draw("film", "f_%d.exr", more), status, mentions);
-    };
-    refuse({"--aa", "taa", "--jobs", "2"}, {"--aa taa"});
-    refuse({"--budget", "8", "--jobs", "2"}, {"--budget"});
-    refuse({"--stats", "s.json"}, {"--stats"});
-    refuse({"--wait"}, {"--wait", "--slurm"});
-    refuse({"--jobs", "0"}, {"--jobs"});
-    expectRefusal(draw("film", "f.exr"), 2, {"%04d"});
-    expectRefusal({"film", "glass.gltf", "--out", "f.exr"}, 2, {"--frames or --flythrough"});
-    refuse({"--slurm", "--jobs", "2"}, {"--jobs", "--slurm"});
-    refuse({"--parts", "x"}, {"--parts x"});
-    refuse({"--part", "1/2"}, {"--part", "shutter render"});
 }
 
 } // namespace shutter::cli
