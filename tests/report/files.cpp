@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the program reads and writes, for the tests that hold it against the schemas.
+// What the program reads and writes, for tests of it in Python.
 //   flythroughs FILE...   prints a line for each: empty, or why it is refused
 //   settings FILE...      the same for the player's settings
 //   write FOLDER COUNT    writes that many files of random valid settings
+//   page FOLDER           writes the report page of FOLDER/results.json; the tests skip where none
+//                         can be made
 #include "engine/flythrough/flythrough.h"
+#include "game/bench/report/report_page.h"
 #include "game/play/panel/play_settings.h"
 #include "tests/unit/panel/random_settings.h"
 
@@ -37,6 +40,14 @@ template <class Read> int printErrors(int count, char** files, const Read& read)
     return 0;
 }
 
+int makePage(const char* folder) {
+    const core::Status possible = bench::checkReportPageCanBeMade();
+    const core::Status made = possible ? bench::remakeReportPage(folder) : possible;
+    if (!made)
+        fmt::print(stderr, "{}\n", made.error().message);
+    return possible ? (made ? 0 : 1) : 77;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -45,6 +56,8 @@ int main(int argc, char** argv) {
         return printErrors(argc - 2, argv + 2, flythrough::readFlythrough);
     if (command == "settings")
         return printErrors(argc - 2, argv + 2, game::loadPlaySettings);
+    if (command == "page" && argc == 3)
+        return makePage(argv[2]);
     if (command == "write" && argc == 4)
         return writeFiles(argv[2], static_cast<uint32_t>(std::atoi(argv[3])));
     return 2;

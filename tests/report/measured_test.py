@@ -65,13 +65,14 @@ class Measured(unittest.TestCase):
         counts = {m["method"]: [] for m in case["measurements"]}
         for m in case["measurements"]:
             counts[m["method"]].append(m["samples"])
-            self.assertEqual(m["repeats"], 2)
             self.assertGreater(m["milliseconds"]["frame"]["median"], 0)
             # The page holds the pictures of defaults alone.
             self.assertEqual("image" in m, m["isDefault"])
             for field in ("image", "errorMap"):
                 self.assertTrue(field not in m or (self.folder / m[field]).is_file())
-            self.assertTrue(m["metrics"]["psnr"] is None or m["metrics"]["psnr"] > 15)
+            if m["method"] in ("sharp", "gather", "hybrid"):
+                self.assertEqual(m["repeats"], 2)
+                self.assertGreater(m["metrics"]["psnr"], 15)
         self.assertEqual(counts["sharp"], [None])
         for method in ("gather", "hybrid"):
             self.assertEqual(counts[method], [4, 8, 15, 16, 32, 64])

@@ -33,8 +33,8 @@ if not shutil.which("ffmpeg"):
     print("skipped: the package ffmpeg is missing")
     sys.exit(77)
 
-MAKE_PAGE = os.environ["SHUTTER_MAKE_PAGE"]
-check = subprocess.run([MAKE_PAGE], stderr=subprocess.PIPE, text=True, check=False)
+MAKE_PAGE = [os.environ["SHUTTER_TEST_FILES"], "page"]
+check = subprocess.run([*MAKE_PAGE, "nowhere"], stderr=subprocess.PIPE, text=True, check=False)
 if check.returncode == 77:
     print(f"skipped: {check.stderr}")
     sys.exit(77)
@@ -69,7 +69,7 @@ class PageCase(unittest.TestCase):
         PageCase.results = {}
         for suite in example_results.SUITES:
             PageCase.results[suite] = example_results.write(suite, cls.folder / suite)
-            subprocess.run([MAKE_PAGE, cls.folder / suite], check=True)
+            subprocess.run([*MAKE_PAGE, cls.folder / suite], check=True)
             # The page must be self-contained.
             (cls.folder / suite / "results.json").unlink()
             shutil.rmtree(cls.folder / suite / "images")

@@ -110,7 +110,7 @@ class Page(PageCase):
         change(results)
         (self.folder / name).mkdir()
         (self.folder / name / "results.json").write_text(json.dumps(results), encoding="utf-8")
-        subprocess.run([MAKE_PAGE, self.folder / name], check=True)
+        subprocess.run([*MAKE_PAGE, self.folder / name], check=True)
         self.open(name, ready=name != "broken")
 
     def shown(self):

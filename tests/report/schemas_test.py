@@ -33,7 +33,7 @@ def make_validator(text):
 
 def run(*arguments):
     """Lines that the program files.cpp prints."""
-    return subprocess.run([os.environ["SHUTTER_READ_FILES"], *map(str, arguments)], check=True,
+    return subprocess.run([os.environ["SHUTTER_TEST_FILES"], *map(str, arguments)], check=True,
                           stdout=subprocess.PIPE, text=True).stdout.split("\n")[:-1]
 
 
