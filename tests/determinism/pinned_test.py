@@ -1,29 +1,33 @@
 # SPDX-License-Identifier: MIT
-"""Every method draws the bits that were pinned for this driver (README.md)."""
+"""The methods draw the bits that were pinned for this driver, for the reasons pinned (README.md)."""
 
 import os
-import sys
+import tempfile
 import unittest
 
 import traces
 
 EXECUTABLE = os.environ["SHUTTER_EXECUTABLE"]
-ASSETS = os.environ["SHUTTER_ASSETS"]
+GENERATOR = os.environ["SHUTTER_GENERATOR"]
 
 
 class Pinned(unittest.TestCase):
-    def test_every_method_draws_the_pinned_bits(self):
-        driver = traces.draw(EXECUTABLE, ASSETS, "sharp")["driver"]
-        pinned = traces.read_pins().get(driver)
+    maxDiff = None
+
+    def test_every_shot_has_the_pinned_bits_and_reasons(self):
+        with tempfile.TemporaryDirectory(prefix="shutter_pin_") as assets:
+            traces.generate(GENERATOR, assets)
+            found = traces.draw_all(EXECUTABLE, assets)
+        if traces.DEVICE == "llvmpipe":
+            with self.subTest("explanations"):
+                self.assertEqual(traces.write_explanations(found["explained"]),
+                                 traces.EXPLANATIONS.read_text(encoding="utf-8"))
+        pinned = traces.read_pins().get(found["driver"])
         if pinned is None:
-            print(f"skipped: no pictures are pinned for the driver '{driver}'")
+            print(f"skipped: no pictures are pinned for the driver '{found['driver']}'")
             os._exit(77)
-        self.assertEqual(set(pinned), set(traces.list_methods(EXECUTABLE)))
-        for method, expected in pinned.items():
-            with self.subTest(method=method):
-                found = traces.draw(EXECUTABLE, ASSETS, method)["images"]
-                self.assertEqual(traces.hash_all(found), expected,
-                                 "README.md explains how to find the pass that differs")
+        self.assertEqual(found["pictures"], pinned,
+                         "README.md explains how to find the pass that differs")
 
 
 if __name__ == "__main__":

@@ -47,11 +47,11 @@ class Traces(unittest.TestCase):
             self.assertIsNone(traces.find_difference(self.draw(method), found))
 
     def test_two_runs_with_every_effect_write_the_same(self):
-        found = self.draw("hybrid", *EFFECTS)
+        found = self.draw("hybrid", *traces.EFFECTS)
         names = " ".join(row["pass"] for row in found)
         for part in ("taa", "bloom", "shadow"):
             self.assertIn(part, names)
-        self.assertIsNone(traces.find_difference(self.draw("hybrid", *EFFECTS), found))
+        self.assertIsNone(traces.find_difference(self.draw("hybrid", *traces.EFFECTS), found))
 
     def test_samples_of_a_moving_camera_are_traced_once_they_are_split(self):
         with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
@@ -67,8 +67,8 @@ class Traces(unittest.TestCase):
         for method in ("hybrid", "resolved", "accumulate"):
             with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
                 files = [pathlib.Path(folder) / name for name in ("plain.exr", "traced.exr")]
-                traces.render(EXECUTABLE, ASSETS, method, files[0])
-                traces.render(EXECUTABLE, ASSETS, method, files[1],
+                traces.render(EXECUTABLE, ASSETS, traces.SHOTS["vase"], method, files[0])
+                traces.render(EXECUTABLE, ASSETS, traces.SHOTS["vase"], method, files[1],
                               "--hash-passes", f"{folder}/trace.json")
                 self.assertEqual(*(file.read_bytes() for file in files))
 
@@ -82,9 +82,6 @@ class Traces(unittest.TestCase):
                 self.assertIn(f"'{name}'", difference)
 
 
-# What may be drawn besides the blur.
-EFFECTS = ("--aa", "taa", "--bloom", "0.3", "--shadows", "blurred", "--shadow-map-size", "64",
-           "--sky", "3")
 # What each setting acts on first.
 CHANGES = (
     ("gather", "foregroundMagnification=30", "gather"),
