@@ -3,6 +3,7 @@
 
 import os
 import select
+import shutil
 import signal
 import subprocess
 import time
@@ -39,7 +40,7 @@ class ChildProcess(FaultCase):
         encoder.write_text(ENCODER, encoding="utf-8")
         encoder.chmod(0o700)
         frames = self.folder / "film.mp4.frames"
-        frames.mkdir(exist_ok=True)
+        frames.mkdir()
         started = frames / "started"
         os.mkfifo(started)
         reader = os.open(started, os.O_RDONLY | os.O_NONBLOCK)
@@ -58,25 +59,19 @@ class ChildProcess(FaultCase):
         self.addCleanup(os.close, child)
         return process, child
 
-    def expect_end_with(self, number):
-        (self.folder / "film.mp4").write_bytes(OLDER)
-        process, child = self.start_encoding()
-        process.send_signal(number)
-        self.assertEqual(process.wait(), -number)
-        ended = wait_for(child, 60)
-        if not ended:
-            signal.pidfd_send_signal(child, signal.SIGKILL)
-        self.assertTrue(ended, "ffmpeg goes on")
-        self.assertEqual((self.folder / "film.mp4").read_bytes(), OLDER)
-
-    def test_when_the_program_is_killed(self):
-        self.expect_end_with(signal.SIGKILL)
-
-    def test_when_the_program_is_asked_to_end(self):
-        self.expect_end_with(signal.SIGTERM)
-
-    def test_when_the_program_is_interrupted(self):
-        self.expect_end_with(signal.SIGINT)
+    def test_ffmpeg_ends_where_the_program_is_killed_asked_to_end_or_interrupted(self):
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
+            with self.subTest(signal=number):
+                (self.folder / "film.mp4").write_bytes(OLDER)
+                process, child = self.start_encoding()
+                process.send_signal(number)
+                self.assertEqual(process.wait(), -number)
+                ended = wait_for(child, 60)
+                if not ended:
+                    signal.pidfd_send_signal(child, signal.SIGKILL)
+                self.assertTrue(ended, "ffmpeg goes on")
+                self.assertEqual((self.folder / "film.mp4").read_bytes(), OLDER)
+                shutil.rmtree(self.folder / "film.mp4.frames")
 
     def test_a_sequence_that_is_killed_leaves_its_pipelines(self):
         caches = self.folder / "caches"

@@ -18,10 +18,25 @@ DEVICE = "llvmpipe"
 # take lavapipe three times as long to compile.
 METHOD = "hybrid"
 
+# Sweeps draw a sample unless this is set: two of what they go through, or a few of many calls.
+DRAWS_ALL = "SHUTTER_ALL" in os.environ
+
 listed = subprocess.run([EXECUTABLE, "info", "--devices"], capture_output=True, text=True)
 if DEVICE not in listed.stdout:
     print(f"skipped: {DEVICE} is missing (package mesa-vulkan-drivers)")
     sys.exit(77)
+
+
+def choose(count, most):
+    """Numbers of calls from 1 to `count`: all, or `most` of them, the first and the last among them."""
+    if DRAWS_ALL or count <= most:
+        return range(1, count + 1)
+    return sorted({1 + round(i * (count - 1) / (most - 1)) for i in range(most)})
+
+
+def sample(cases):
+    """All, or the first two, which a sweep has in front because they differ most."""
+    return cases if DRAWS_ALL else cases[:2]
 
 
 def faults_as_environment(faults):
