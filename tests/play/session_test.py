@@ -6,12 +6,13 @@ import sys
 import unittest
 
 try:
+    import numpy as np
     import skimage.io
 except ImportError:
     print("skipped: the package python3-skimage is missing")
     sys.exit(77)
 
-from play_case import ASSETS, PlayCase, Script
+from play_case import ASSETS, DRAWS_ALL, PlayCase, Script
 
 
 def drive():
@@ -21,8 +22,8 @@ def drive():
 
 
 class Session(PlayCase):
-    def film(self, name, *options):
-        self.play("rally", drive(), "--film", f"{name}%02d.png", *options, display=False)
+    def film(self, name):
+        self.play("rally", drive(), "--film", f"{name}%02d.png", "--method", "gather", display=False)
         return [path.read_bytes() for path in sorted(self.folder.glob(f"{name}*.png"))]
 
     def test_the_same_script_gives_the_same_film(self):
@@ -34,19 +35,19 @@ class Session(PlayCase):
 
     def test_split_shows_both_methods(self):
         script = Script().add(key="w", action="press").wait(150).tap("p")
-        script.add(screenshot="hybrid.png").wait().tap("x").wait()
-        script.add(screenshot="split.png").wait().tap("x").tap("1").wait()  # preset off: sharp
-        script.add(screenshot="sharp.png").wait(2)
-        self.play("rally", script.add(window="quit"), size="480x270", display=False)
+        script.add(screenshot="sharp.png").wait().tap("m").wait()  # the next method blurs
+        script.add(screenshot="blurred.png").wait().tap("x").wait()
+        script.add(screenshot="split.png").wait(2).add(window="quit")
+        self.play("rally", script, "--method", "sharp", size="480x270", display=False)
         # Between the head-up display's lines and the foot; the divider's line apart.
-        hybrid, split, sharp = (
+        blurred, split, sharp = (
             skimage.io.imread(self.folder / f"{name}.png")[120:200]
-            for name in ("hybrid", "split", "sharp")
+            for name in ("blurred", "split", "sharp")
         )
         self.assertTrue((split[:, :238] == sharp[:, :238]).all())
-        self.assertTrue((split[:, 242:] == hybrid[:, 242:]).all())
+        self.assertTrue((split[:, 242:] == blurred[:, 242:]).all())
         for half in (slice(0, 238), slice(242, 480)):
-            self.assertGreater(abs(hybrid[:, half].astype(float) - sharp[:, half]).mean(), 0.5)
+            self.assertGreater(abs(blurred[:, half].astype(float) - sharp[:, half]).mean(), 0.5)
 
     def test_photo_mode_adds_rays_until_the_picture_is_the_truth(self):
         def shoot(name, *taps, frames, method, rays=1):
@@ -80,7 +81,7 @@ class Session(PlayCase):
         self.assertEqual(reduced, 0)
         blurred = abs(full - sharp).mean()
         self.assertGreater(blurred, 0.5)
-        for milliseconds in (0.1, 16):
+        for milliseconds in (0.1, 16) if DRAWS_ALL else (0.1,):
             with self.subTest(milliseconds=milliseconds):
                 picture, reduced = drive_and_shoot("budget", "resolved", milliseconds)
                 # At least half of what the whole blur changes.
@@ -163,8 +164,6 @@ class Session(PlayCase):
 
         self.assertIn("--focus changes nothing: the camera is a pinhole", warn("resolved", "--focus", "3"))
         self.assertIn("--fstop changes nothing: gather draws pinholes", warn("gather", "--fstop", "2"))
-        self.assertNotIn("changes nothing", warn("resolved", "--fstop", "2", "--focus", "3"))
-        self.assertNotIn("changes nothing", warn("gather"))
         self.assertIn("--focus-entity changes nothing: the camera is a pinhole",
                       warn("resolved", "--focus-entity", "runner"))
         self.assertNotIn("changes nothing", warn("resolved", "--fstop", "2", "--focus-entity", "runner"))
@@ -173,19 +172,12 @@ class Session(PlayCase):
         self.assertEqual(unknown.returncode, 1)
         self.assertIn("gallery: --focus-entity 'nobody' is the name of no node", unknown.stderr)
 
-    def test_settings_are_kept_and_wrong_ones_refused(self):
+    def test_settings_are_kept(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
         self.play("spin", script, display=False)
         kept = json.loads((self.folder / "settings.json").read_text(encoding="utf-8"))
         self.assertTrue(kept["split"])
         self.assertEqual(kept["instants"], 2)
-        (self.folder / "wrong.json").write_text('{"version": 1,\n "instants": 0}', encoding="utf-8")
-        result = self.run_shutter(["spin", "--frames", "1", "--assets", ASSETS,
-                                   "--settings", "wrong.json"], display=False)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("wrong.json:2", result.stderr)
-        self.assertIn("instants", result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1)
 
     def test_bloom_costs_its_passes_and_none_without_a_share_or_a_highlight(self):
         def shoot(share, **settings):
@@ -216,14 +208,18 @@ class Session(PlayCase):
         for _ in range(3):
             script.tap("p").wait(4).tap("p").wait(4)
         script.add(window="quit")
-        for demo in ("spin", "gallery", "rally"):
-            for method in ("hybrid", "resolved"):
-                with self.subTest(demo=demo, method=method):
-                    stats = self.play(demo, script, "--method", method, display=False)
-                    self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
+        for demo, method in self.sample((("rally", "resolved"), ("spin", "hybrid"), ("rally", "hybrid"),
+                                         ("spin", "resolved"), ("gallery", "hybrid"),
+                                         ("gallery", "resolved"))):
+            with self.subTest(demo=demo, method=method):
+                stats = self.play(demo, script, "--method", method, display=False)
+                self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
 
     def test_bad_input_is_told_in_one_sentence(self):
+        (self.folder / "wrong.json").write_text('{"version": 1,\n "instants": 0}', encoding="utf-8")
         for arguments, status, expected in (
+            (["spin", "--frames", "1", "--assets", ASSETS, "--settings", "wrong.json"], 1,
+             "wrong.json:2: instants"),
             (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
             (["rally"], 2, "--no-window"),
             (["rally", "--script", "none.json"], 1, "none.json"),
@@ -248,31 +244,28 @@ class Effects(PlayCase):
             self.assertEqual(stats["validationMessages"], 0)
             return set(stats["passes"]), skimage.io.imread(self.folder / "a.png").astype(int)
 
-        bare, _ = shoot("", "--sky", "0")
-        shadow_passes = {"shadow maps", "keep shadow maps"}
-        for keys, option, passes in (
-            # the last if the camera rests
-            ("6", ("--aa", "taa"), {"clear edges", "split samples", "split edges", "taa"}),
-            ("7", ("--shadows", "sharp"), shadow_passes),
-            ("77", ("--shadows", "blurred"), shadow_passes),
-            ("9", ("--bloom", "0.04"), {"bloom down", "bloom up"}),
-        ):
-            with self.subTest(option=option):
-                alone, _ = shoot("", "--sky", "0", *option)
+        # A sky has no separate pass. Next to and below the head-up display, which shows times.
+        place = np.s_[74:, 70:]
+        bare, by_option = shoot("", "--sky", "0")
+        shadow_passes = {"shadow maps", "keep shadow maps"}  # the last if the camera rests
+        every = set(bare)
+        for keys, passes in (("6", {"clear edges", "split samples", "split edges", "taa"}),
+                             ("7", shadow_passes),
+                             ("77", shadow_passes),
+                             ("9", {"bloom down", "bloom up"})):
+            with self.subTest(keys=keys):
+                alone, _ = shoot(keys, "--sky", "0")
                 self.assertNotEqual(alone & passes, set())
                 self.assertLessEqual(alone - bare, passes)
-                self.assertEqual(shoot(keys, "--sky", "0")[0], alone)
-        # A sky has no separate pass. Next to and below the head-up display, which shows times.
-        with_sky, without, by_option = (
-            shoot(keys, *options)[1][74:, 70:]
-            for keys, options in (("", ()), ("8", ()), ("", ("--sky", "0")))
-        )
+                every |= alone
+        with_sky, without = (shoot(keys)[1][place] for keys in ("", "8"))
         self.assertGreater(abs(with_sky - without).mean(), 2)
-        self.assertLess(abs(without - by_option).mean(), 0.2 * abs(with_sky - without).mean())
+        self.assertLess(abs(without - by_option[place]).mean(), 0.2 * abs(with_sky - without).mean())
+        options = ("--sky", "0", "--aa", "taa", "--shadows", "blurred", "--bloom", "0.04")
+        self.assertEqual(shoot("", *options)[0], every)
         for rays in ("pipeline", "none"):
             with self.subTest(rays=rays):
-                passes, _ = shoot("", "--aa", "taa", "--shadows", "blurred", "--bloom", "0.04",
-                                  rays=rays)
+                passes, _ = shoot("", *options, rays=rays)
                 self.assertLessEqual(
                     {"split samples", "shadow maps", "bloom down", "bloom up"}, passes
                 )
