@@ -41,10 +41,16 @@ if "llvmpipe" not in listed.stdout:
 
 
 class Advice(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.caches = tempfile.mkdtemp(prefix="shutter_advice_caches_")  # for all runs
+        cls.addClassCleanup(shutil.rmtree, cls.caches)
+
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="shutter_advice_"))
         self.addCleanup(shutil.rmtree, self.folder)
-        self.environment = {**os.environ, "VK_LAYER_ENABLES": ENABLES, "HOME": str(self.folder)}
+        self.environment = {"MESA_SHADER_CACHE_DIR": self.caches, **os.environ, "HOME": str(self.folder),
+                            "XDG_CACHE_HOME": self.caches, "VK_LAYER_ENABLES": ENABLES}
         self.environment.pop("XDG_CONFIG_HOME", None)
 
     def hear(self, *arguments):
@@ -90,7 +96,7 @@ class Advice(unittest.TestCase):
     def test_the_demos(self):
         for demo in ("rally", "gallery", "spin"):
             self.expect_explained(self.hear(
-                "play", demo, "--assets", ASSETS, "--no-window", "--frames", "40", "--size", "64x36"))
+                "play", demo, "--assets", ASSETS, "--no-window", "--frames", "12", "--size", "64x36"))
 
 
 if __name__ == "__main__":
