@@ -13,8 +13,7 @@ PINS = pathlib.Path(__file__).with_name("pins.json")
 EXPLANATIONS = pathlib.Path(__file__).with_name("explanations.txt")
 # lavapipe's; that of another driver, which VK_DRIVER_FILES then names.
 DEVICE = os.environ.get("SHUTTER_PIN_DEVICE", "llvmpipe")
-# lavapipe compiles for the instructions of its processor. With those of the first AVX alone, every x86
-# processor that has them draws the same bits.
+# lavapipe compiles for the instructions of its processor: those of the first AVX alone.
 ENVIRONMENT = {"GALLIUM_OVERRIDE_CPU_CAPS": "avx"}
 # Small, and yet every pass of every method runs in it.
 SHOT = ("--size", "96x54", "--device", DEVICE, "--exposure", "0.05")
@@ -64,15 +63,20 @@ FILM = Shot("running_figure_pan", "--aa", "taa", "--frames", "11:12", "--fps", "
             methods=("resolved", "adaptive"))
 
 
-def describe_processor():
-    """Name and a digest of all that a compiler depends on: software drivers compile for it."""
-    wanted = ("vendor_id", "cpu family", "model", "model name", "flags", "Features")
+def read_processor():
+    """What the kernel reports of the first one."""
     found = {}
     cpuinfo = pathlib.Path("/proc/cpuinfo")
     for line in cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else ():
         key, _, value = line.partition(":")
-        if key.strip() in wanted:
-            found.setdefault(key.strip(), value.strip())
+        found.setdefault(key.strip(), value.strip())
+    return found
+
+
+def describe_processor():
+    """Name and a digest of all that a compiler depends on: SwiftShader compiles for it."""
+    wanted = ("vendor_id", "cpu family", "model", "model name", "flags", "Features")
+    found = {key: value for key, value in read_processor().items() if key in wanted}
     digest = hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
     return f"{found.get('model name', 'unknown')} {digest[:8]}"
 
@@ -137,7 +141,8 @@ def draw(executable, assets, method, *more, shot="vase", environment=()):
         found = json.loads(trace.read_text(encoding="utf-8"))
     driver = found["driver"].strip()
     target = (f" on {describe_processor()}" if driver.startswith("SwiftShader")
-              else f" {found['device'].rpartition(', ')[2].strip(')')} {platform.machine()}")
+              else f" {found['device'].rpartition(', ')[2].strip(')')} {platform.machine()} "
+                   f"{read_processor().get('vendor_id', 'unknown')}")
     return {**found, "driver": f"{driver}{describe_library(driver)}{target}",
             "explained": [" ".join(line.split()) for line in printed.splitlines()
                           if line.split()[0] in ("effect", "work")]}
