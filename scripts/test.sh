@@ -14,6 +14,7 @@ source "$root/scripts/lib/lavapipe.sh"
 
 "$root/scripts/setup.sh" --with-tests
 force_lavapipe
+compile_shaders_quickly
 cd "$root"
 run_ctest() {
     ctest --preset release -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"

@@ -8,19 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <utility>
 
 namespace shutter::test {
-
-namespace {
-
-/// Pictures here are small: without optimisation Mesa's software device is done with its pipelines
-/// four times as fast, and draws the same bits.
-const int kNoOptimisation = setenv("GALLIVM_PERF", "nopt", 0);
-
-} // namespace
 
 graph::Plan run(GraphRig& rig) {
     auto plan = rig.run();
