@@ -4,6 +4,7 @@
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"
 #include "game/bench/results.h"
+#include "tests/support/outcomes.h"
 #include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>
@@ -43,11 +44,12 @@ Record makeRecord(double gatherMs, double psnr) {
     return record;
 }
 
-std::string nameImage(const nlohmann::json& row) {
+std::string nameImage(const json& row) {
     return fmt::format("{}-{}.png", row.at("method").get<std::string>(), row.at("samples").dump());
 }
 
-nlohmann::json describeThree() {
+/// Of hybrid at 18 ms, and of gather at 12, 14 and 28 ms.
+json describeThree() {
     const std::vector<SamplePoint> sweep{
         pointOf("hybrid", 15), pointOf("gather", 4), pointOf("gather", 15), pointOf("gather", 64)};
     CaseResult result;
@@ -74,41 +76,26 @@ TEST(Cost, TheDisplayDoesNotCountAndTheSceneIsNoEffect) {
     EXPECT_EQ(computeEffectTime(*game::findMethod("accumulate").value(), sample), 13.0);
 }
 
-TEST(Results, AMeasurementHoldsMediansAndQuartiles) {
-    const nlohmann::json described = describeThree();
-    const nlohmann::json& hybrid = described.at("measurements").at(0);
+TEST(Results, AMeasurementHoldsMediansAndQuartilesAndOnlyDefaultsCarryPictures) {
+    const json described = describeThree();
+    const json& hybrid = described.at("measurements").at(0);
     EXPECT_EQ(hybrid.at("method"), "hybrid");
     EXPECT_EQ(hybrid.at("milliseconds").at("frame").at("median"), 18.0);
     EXPECT_EQ(hybrid.at("milliseconds").at("effect").at("q1"), 6.0);
     EXPECT_EQ(hybrid.at("milliseconds").at("effect").at("q3"), 10.0);
     EXPECT_EQ(hybrid.at("repeats"), 3);
     EXPECT_TRUE(hybrid.at("isDefault"));
-}
-
-TEST(Results, EqualTimeTakesTheSampleCountThatIsNearestInTime) {
-    // hybrid 18 ms; gather 12, 14 and 28 ms.
-    const nlohmann::json equal = compareAtEqualTime(describeThree(), "hybrid", nameImage);
-    ASSERT_EQ(equal.at("rows").size(), 1u);
-    EXPECT_EQ(equal.at("rows").at(0).at("samples"), 15);
-    EXPECT_EQ(equal.at("rows").at(0).at("image"), "gather-15.png");
-    EXPECT_EQ(equal.at("reference").at("milliseconds"), 18.0);
-}
-
-TEST(Results, OnlyDefaultsCarryPictures) {
-    const nlohmann::json described = describeThree();
-    for (const nlohmann::json& row : described.at("measurements"))
+    for (const json& row : described.at("measurements"))
         for (const char* picture : {"image", "errorMap", "linear"})
             EXPECT_EQ(row.contains(picture), row.at("isDefault").get<bool>()) << row.at("samples");
 }
 
-TEST(Results, AMethodWithoutSamplesHasNull) {
-    CaseResult result;
-    result.records["sharp/0"] = makeRecord(0.0, 20.0);
-    const nlohmann::json described = describeCase({}, {pointOf("sharp", 0)}, result, {});
-    EXPECT_TRUE(described.at("measurements").at(0).at("samples").is_null());
-}
-
-TEST(Results, EqualTimeRequiresTheReference) {
+TEST(Results, EqualTimeTakesTheSampleCountThatIsNearestInTimeToTheReference) {
+    const json equal = compareAtEqualTime(describeThree(), "hybrid", nameImage);
+    ASSERT_EQ(equal.at("rows").size(), 1u);
+    EXPECT_EQ(equal.at("rows").at(0).at("samples"), 15);
+    EXPECT_EQ(equal.at("rows").at(0).at("image"), "gather-15.png");
+    EXPECT_EQ(equal.at("reference").at("milliseconds"), 18.0);
     EXPECT_TRUE(compareAtEqualTime(describeThree(), "truth", nameImage).is_null());
 }
 
@@ -116,12 +103,16 @@ TEST(Results, EqualPicturesHaveANullPsnrAndSkippedSampleCountsTheirReason) {
     CaseResult result;
     result.records["hybrid/15"] = makeRecord(4.0, std::numeric_limits<double>::infinity());
     result.records["gather/15"].skipped = "predicted 90 s";
-    const nlohmann::json described =
+    const json described =
         describeCase({}, {pointOf("hybrid", 15), pointOf("gather", 15)}, result, {});
     EXPECT_TRUE(described.at("measurements").at(0).at("metrics").at("psnr").is_null());
     ASSERT_EQ(described.at("skipped").size(), 1u);
     EXPECT_EQ(described.at("skipped").at(0).at("reason"), "predicted 90 s");
     EXPECT_EQ(described.at("measurements").size(), 1u);
+    CaseResult without;
+    without.records["sharp/0"] = makeRecord(0.0, 20.0);
+    const json sharp = describeCase({}, {pointOf("sharp", 0)}, without, {});
+    EXPECT_TRUE(sharp.at("measurements").at(0).at("samples").is_null());
 }
 
 TEST(Results, AnAxisIsFittedPerMethod) {
@@ -135,7 +126,7 @@ TEST(Results, AnAxisIsFittedPerMethod) {
         one.result.records["sharp/0"] = record;
         measured.push_back(std::move(one));
     }
-    const nlohmann::json described =
+    const json described =
         describeAxis(axis, {pointOf("sharp", 0), pointOf("hybrid", 15)}, measured);
     ASSERT_EQ(described.at("series").size(), 1u); // hybrid was not measured
     EXPECT_NEAR(described.at("series").at(0).at("fit").at("frame").at("exponent"), 1.0, 1e-12);
@@ -268,12 +259,16 @@ TEST_F(SequenceResults, MeasuresAreMeansOverTheFramesThatHaveThem) {
     EXPECT_EQ(describe().at("truth").at("instants").at("median"), 3.5);
 }
 
-TEST_F(SequenceResults, TheMeanOverThePixelTakesAllInstantsInEveryFrame) {
+TEST_F(SequenceResults, TheMeanOverThePixelTakesAllInstantsAndEveryMeasureIsDescribed) {
     EXPECT_EQ(describe().at("truth").at("maxStepPx"), 0.5);
     mFilm.shot.pixel = extract::PixelModel::Box;
     mFilm.shot.picture.antiAliasing = game::AntiAliasing::Taa;
     EXPECT_TRUE(describe().at("truth").at("maxStepPx").is_null());
     EXPECT_EQ(describe().at("antiAliasing"), "taa");
+    const json metrics = describe().at("measurements").at(0).at("metrics");
+    EXPECT_EQ(describeTemporalMetrics().size(), metrics.size());
+    for (const json& metric : describeTemporalMetrics())
+        EXPECT_TRUE(metrics.contains(metric.at("id"))) << metric;
 }
 
 TEST_F(SequenceResults, AFilmThatEqualsItsTruthHasNoFinitePsnr) {
@@ -286,20 +281,12 @@ TEST_F(SequenceResults, AFilmThatEqualsItsTruthHasNoFinitePsnr) {
     EXPECT_TRUE(rowOfGather(1).at("psnr").is_null());
 }
 
-TEST_F(SequenceResults, EveryMeasureOfAMethodIsDescribed) {
-    const json metrics = describe().at("measurements").at(0).at("metrics");
-    EXPECT_EQ(describeTemporalMetrics().size(), metrics.size());
-    for (const json& metric : describeTemporalMetrics())
-        EXPECT_TRUE(metrics.contains(metric.at("id"))) << metric;
-}
-
 class JournalFile : public testing::Test {
   protected:
     JournalFile() { std::filesystem::create_directories(mFile.parent_path()); }
 
     const test::TempFolder mFolder;
-    const std::filesystem::path mReport = mFolder.path();
-    const std::filesystem::path mFile = mReport / "journal" / "case.json";
+    const std::filesystem::path mFile = mFolder.path() / "journal" / "case.json";
 };
 
 TEST_F(JournalFile, MeasurementsAreReadBack) {
@@ -338,13 +325,10 @@ TEST_F(JournalFile, ALaterMeasurementReplacesASkip) {
     EXPECT_TRUE(Journal(mFile, "a").find("truth/256").skipped.empty());
 }
 
-TEST_F(JournalFile, AnotherFingerprintStartsANewJournal) {
+TEST_F(JournalFile, AnotherFingerprintOrAnInvalidFileStartsANewJournal) {
     ASSERT_TRUE(Journal(mFile, "a").addSample("x/1", {}).ok());
     EXPECT_TRUE(Journal(mFile, "b").records().empty());
     EXPECT_EQ(Journal(mFile, "a").records().size(), 1u);
-}
-
-TEST_F(JournalFile, AnInvalidFileStartsANewJournal) {
     for (const char* text : {"", "{", "[]", "{\"fingerprint\":\"a\",\"records\":{\"x\":{}}}"}) {
         ASSERT_TRUE(io::writeFileText(mFile, text).ok());
         EXPECT_TRUE(Journal(mFile, "a").records().empty()) << text;
@@ -362,44 +346,44 @@ TEST_F(JournalFile, AWrongFieldStartsANewJournalAndIsNamed) {
         ASSERT_TRUE(journal.addSample("x/1", {{{"gather", 1.5}}, 3.0}).ok());
         ASSERT_TRUE(journal.setPicture("x/1", facts).ok());
     }
-    const auto bytes = io::readFileBytes(mFile, 1 << 20);
-    ASSERT_TRUE(bytes);
-    const std::string whole(bytes.value().begin(), bytes.value().end());
-    const auto expectNewJournal =
-        [&](const std::string& from, const std::string& to, const char* mention) {
-            std::string text = whole;
-            const size_t place = text.find(from);
-            ASSERT_NE(place, std::string::npos) << from;
-            text.replace(place, from.size(), to);
-            ASSERT_TRUE(io::writeFileText(mFile, text).ok());
-            testing::internal::CaptureStderr();
-            EXPECT_TRUE(Journal(mFile, "a").records().empty()) << to;
-            const std::string reported = testing::internal::GetCapturedStderr();
-            EXPECT_NE(reported.find(mention), std::string::npos) << reported;
-            EXPECT_NE(reported.find(mFile.string()), std::string::npos) << reported;
-        };
-    expectNewJournal("\"rays traced\": 7", "\"rays traced\": 1e300", "counters.rays traced");
-    expectNewJournal("\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced");
-    expectNewJournal("images/x.png", "/etc/hostname", "leaves the report's folder");
-    expectNewJournal("images/x.flip.png", "../../../../x.png", "leaves the report's folder");
-    expectNewJournal("images/x.exr", "../../../x.exr", "leaves the report's folder");
-    expectNewJournal("\"gather\"", "\"gather\", 2", "must have 3 elements");
-    expectNewJournal("\"samples\"", "\"more\": 1, \"samples\"", "is not a field");
-    expectNewJournal("\"wall\": 3.0", "\"wall\": []", "wall");
-}
+    const auto bytes = test::valueOf(io::readFileBytes(mFile, 1 << 20));
+    const std::string whole(bytes.begin(), bytes.end());
+    const auto expectNewJournal = [&](const char* mention) {
+        testing::internal::CaptureStderr();
+        EXPECT_TRUE(Journal(mFile, "a").records().empty()) << mention;
+        const std::string reported = testing::internal::GetCapturedStderr();
+        EXPECT_NE(reported.find(mention), std::string::npos) << reported;
+        EXPECT_NE(reported.find(mFile.string()), std::string::npos) << reported;
+    };
 
-TEST_F(JournalFile, AFolderInItsPlaceIsNoJournal) {
+    struct Change {
+        std::string from;
+        const char* to;
+        const char* mention;
+    };
+
+    for (const Change& change :
+         {Change{"\"rays traced\": 7", "\"rays traced\": 1e300", "counters.rays traced"},
+          Change{"\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced"},
+          Change{"images/x.png", "/etc/hostname", "leaves the report's folder"},
+          Change{"images/x.flip.png", "../../../../x.png", "leaves the report's folder"},
+          Change{"images/x.exr", "../../../x.exr", "leaves the report's folder"},
+          Change{"\"gather\"", "\"gather\", 2", "must have 3 elements"},
+          Change{"\"samples\"", "\"more\": 1, \"samples\"", "is not a field"},
+          Change{"\"wall\": 3.0", "\"wall\": []", "wall"}}) {
+        std::string text = whole;
+        const size_t place = text.find(change.from);
+        ASSERT_NE(place, std::string::npos) << change.from;
+        ASSERT_TRUE(
+            io::writeFileText(mFile, text.replace(place, change.from.size(), change.to)).ok()
+        );
+        expectNewJournal(change.mention);
+    }
+    std::filesystem::remove(mFile);
     std::filesystem::create_directory(mFile);
-    testing::internal::CaptureStderr();
-    EXPECT_TRUE(Journal(mFile, "a").records().empty());
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("it is a folder"), std::string::npos);
-}
-
-TEST_F(JournalFile, AFileThatCannotBeWrittenIsNamed) {
-    Journal journal("no/such/folder/x.json", "a");
-    const core::Status added = journal.addSample("x/1", {});
-    ASSERT_FALSE(added.ok());
-    EXPECT_NE(added.error().message.find("no/such/folder/x.json"), std::string::npos);
+    expectNewJournal("it is a folder");
+    Journal nowhere("no/such/folder/x.json", "a");
+    test::expectRefused(nowhere.addSample("x/1", {}), "no/such/folder/x.json");
 }
 
 } // namespace

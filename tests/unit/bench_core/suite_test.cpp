@@ -14,6 +14,8 @@
 #include "game/bench/suites/suite.h"
 #include "game/bench/truth_cache.h"
 #include "modules/depth_of_field/depth_of_field.h"
+#include "tests/support/outcomes.h"
+#include "tests/support/rows.h"
 #include "tests/support/temp_folder.h"
 
 #include <CLI/CLI.hpp>
@@ -36,10 +38,9 @@ using image::Image;
 
 TEST(Suites, SuitesAreFoundByNameAndTheirShotsAreValidOptions) {
     for (const char* name : {"paper", "hard", "scaling", "edges", "lens"}) {
-        auto suite = findSuite(name);
-        ASSERT_TRUE(suite.ok()) << name;
-        std::vector<Case> cases = suite.value().cases;
-        for (const ScalingAxis& axis : suite.value().axes)
+        auto suite = test::valueOf(findSuite(name));
+        std::vector<Case> cases = suite.cases;
+        for (const ScalingAxis& axis : suite.axes)
             for (const ScalingPoint& point : axis.points)
                 cases.push_back(point.shot);
         EXPECT_FALSE(cases.empty()) << name;
@@ -55,11 +56,10 @@ TEST(Suites, SuitesAreFoundByNameAndTheirShotsAreValidOptions) {
 }
 
 TEST(Suites, SequencesAreFourFlightsAndThreePlayedDemos) {
-    const auto suite = findSuite("sequence");
-    ASSERT_TRUE(suite.ok());
+    const auto suite = test::valueOf(findSuite("sequence"));
     std::set<std::string> names;
     std::set<std::string> demos;
-    for (const SequenceCase& film : suite.value().sequences) {
+    for (const SequenceCase& film : suite.sequences) {
         EXPECT_TRUE(names.insert(film.name).second) << film.name;
         EXPECT_EQ(film.name.find_first_of("/ "), std::string::npos) << film.name;
         EXPECT_TRUE(film.description.ends_with('.')) << film.name;
@@ -101,9 +101,8 @@ TEST(Suites, PixelOverridesThatOfASuite) {
         BenchArguments arguments;
         defineBenchOptions(app, arguments);
         app.parse(words);
-        const auto task = interpretBench(arguments);
-        ASSERT_TRUE(task.ok()) << words << ": " << task.error().message;
-        EXPECT_EQ(task.value().suite.cases.front().shot.pixel, pixel) << words;
+        const auto task = test::valueOf(interpretBench(arguments));
+        EXPECT_EQ(task.suite.cases.front().shot.pixel, pixel) << words;
     }
 }
 
@@ -136,9 +135,7 @@ TEST(Arguments, GivenOptionsAreListedAsTypedWithoutFoldersAndDefaults) {
 TEST(Suites, ShotsWhoseRoomIsNotThereAreLeftOut) {
     const test::TempFolder folder;
     Suite none = makeLensSuite();
-    const core::Status refused = provideRooms(none, folder.path());
-    ASSERT_FALSE(refused.ok());
-    EXPECT_NE(refused.error().message.find("--rooms"), std::string::npos);
+    test::expectRefused(provideRooms(none, folder.path()), "--rooms");
 
     Suite suite = makeLensSuite();
     const std::string room = suite.cases.front().room;
@@ -149,9 +146,7 @@ TEST(Suites, ShotsWhoseRoomIsNotThereAreLeftOut) {
     ASSERT_EQ(suite.cases.size(), size_t(count));
     for (const Case& shot : suite.cases) {
         EXPECT_EQ(shot.room, room);
-        const core::Status written = shot.writeScene(folder.path() / "out.glb");
-        ASSERT_FALSE(written.ok());
-        EXPECT_NE(written.error().message.find(room), std::string::npos);
+        test::expectRefused(shot.writeScene(folder.path() / "out.glb"), room);
     }
 }
 
@@ -172,9 +167,7 @@ class CaseSetupTest : public testing::Test {
 
     [[nodiscard]] CaseSetup setUp(Case shot = {}) const {
         shot.shot.scene = (mFolder.path() / "s.gltf").string();
-        const auto setup = setUpCase(shot, {}, mFolder.path());
-        EXPECT_TRUE(setup.ok());
-        return setup ? setup.value() : CaseSetup();
+        return test::valueOf(setUpCase(shot, {}, mFolder.path()));
     }
 
     [[nodiscard]] std::string hash() const { return setUp().hash; }
@@ -182,16 +175,12 @@ class CaseSetupTest : public testing::Test {
     test::TempFolder mFolder;
 };
 
-TEST_F(CaseSetupTest, UnreferencedFilesAreNotPartOfTheScene) {
+TEST_F(CaseSetupTest, ABufferIsPartOfTheSceneAndUnreferencedFilesAreNot) {
     const std::string before = hash();
     mFolder.write("notes.txt", "next to the scene");
     mFolder.write("below/deep/file.bin", "below the scene");
     std::filesystem::create_symlink("nowhere", mFolder.path() / "broken");
     EXPECT_EQ(hash(), before);
-}
-
-TEST_F(CaseSetupTest, ABufferIsPartOfTheScene) {
-    const std::string before = hash();
     mFolder.write("a.bin", "2");
     EXPECT_NE(hash(), before);
 }
@@ -226,10 +215,8 @@ TEST(Sweep, SampleCountsRiseWithinAMethodAndContainItsDefaultOnce) {
 
 TEST(Contenders, ContendersAreTheMethodsAndThePapersWithItsNumbers) {
     for (const game::MethodInfo& method : game::listMethods()) {
-        const auto found = findContender(method.name);
-        ASSERT_TRUE(found.ok()) << found.error().message;
-        const game::MethodOptions options =
-            makeMethodOptions({found.value(), method.defaultSamples, true});
+        const auto found = test::valueOf(findContender(method.name));
+        const game::MethodOptions options = makeMethodOptions({found, method.defaultSamples, true});
         EXPECT_STREQ(options.method->name, method.name);
         motion_blur::MotionBlurSettings expected;
         if (method.blur) {
@@ -240,9 +227,7 @@ TEST(Contenders, ContendersAreTheMethodsAndThePapersWithItsNumbers) {
     }
     const game::MethodInfo* paper = findContender("hybrid_paper").value();
     EXPECT_EQ(makeMethodOptions({paper, 15, true}).motionBlur, motion_blur::paperSettings());
-    const auto missing = findContender("nosuch");
-    ASSERT_FALSE(missing.ok());
-    EXPECT_NE(missing.error().message.find("gather_paper"), std::string::npos);
+    test::expectRefused(findContender("nosuch"), "gather_paper");
 }
 
 TEST(Contenders, AFilterOfTheLensTakesTapsAndBesideAMotionBlurItsDefault) {
@@ -277,14 +262,8 @@ TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
     for (const auto* points : {&plan.points, &plan.sweep})
         for (const SamplePoint& point : *points)
             EXPECT_TRUE(keys.insert(makeKey(point)).second) << makeKey(point);
-    for (const char* key :
-         {"sharp/0",
-          "gather/15",
-          "gather/64",
-          "accumulate/8",
-          "accumulate/32",
-          "truth/4",
-          "truth/8"})
+    for (const std::string& key :
+         test::rowsOf("sharp/0|gather/15|gather/64|accumulate/8|accumulate/32|truth/4|truth/8"))
         EXPECT_TRUE(keys.contains(key)) << key;
     EXPECT_FALSE(keys.contains("truth/16")) << "seconds a frame";
     EXPECT_FALSE(keys.contains("accumulate/64")) << "the truth itself";
@@ -333,39 +312,25 @@ image::Image makeSpot(uint32_t x, uint32_t y, float value) {
     return picture;
 }
 
-TEST(Crops, TheSquareHoldsTheDifference) {
+TEST(Crops, TheSquareHoldsTheLargestDifferenceAndMeetsNoneThatIsTaken) {
     const image::Image black(64, 48, 3);
-    const auto found = findLargestDifference(makeSpot(40, 30, 1.0f), black, 16, "here", {});
-    ASSERT_EQ(found.size(), 1u);
-    EXPECT_LE(found[0].x, 40u);
-    EXPECT_GT(found[0].x + found[0].width, 40u);
-    EXPECT_LE(found[0].y, 30u);
-    EXPECT_GT(found[0].y + found[0].height, 30u);
-    EXPECT_EQ(found[0].label, "here");
-}
-
-TEST(Crops, ATakenSquareIsNotMet) {
     image::Image two = makeSpot(8, 8, 1.0f);
     two.at(40, 30, 0) = 0.5f;
-    const image::Image black(64, 48, 3);
-    const auto first = findLargestDifference(two, black, 16, "", {});
+    const auto first = findLargestDifference(two, black, 16, "here", {});
     ASSERT_EQ(first.size(), 1u);
     EXPECT_LE(first[0].x, 8u);
+    EXPECT_EQ(first[0].label, "here");
     const auto second = findLargestDifference(two, black, 16, "", first);
     ASSERT_EQ(second.size(), 1u);
     EXPECT_GT(second[0].x, 16u);
-}
-
-TEST(Crops, EqualOrSmallPicturesHaveNone) {
-    const image::Image black(64, 48, 3);
+    EXPECT_LE(second[0].x, 40u);
+    EXPECT_GT(second[0].x + second[0].width, 40u);
+    EXPECT_LE(second[0].y, 30u);
+    EXPECT_GT(second[0].y + second[0].height, 30u);
     EXPECT_TRUE(findLargestDifference(black, black, 16, "", {}).empty());
-    EXPECT_TRUE(findLargestDifference(makeSpot(1, 1, 1.0f), black, 65, "", {}).empty());
-}
-
-TEST(Crops, NaNCountsAsADifference) {
-    const image::Image black(64, 48, 3);
-    const auto spot = makeSpot(40, 30, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_EQ(findLargestDifference(spot, black, 16, "", {}).size(), 1u);
+    EXPECT_TRUE(findLargestDifference(makeSpot(1, 1, 1.0f), black, 65, "", {}).empty()) << "small";
+    const auto broken = makeSpot(40, 30, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(findLargestDifference(broken, black, 16, "", {}).size(), 1u);
 }
 
 using Metrics = std::map<std::string, double>;
@@ -395,8 +360,7 @@ std::set<std::string> listIds(const FramePicture& picture) {
 }
 
 std::vector<FramePicture> judge(FrameJudge& judge, std::vector<FramePicture> pictures) {
-    const core::Status judged = judge.judge(pictures);
-    EXPECT_TRUE(judged) << judged.error().message;
+    test::expectDone(judge.judge(pictures));
     return pictures;
 }
 
@@ -492,9 +456,7 @@ TEST(FrameJudge, PicturesAreWrittenOrAnErrorIsReported) {
     judge(frames, pictures);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "truth.png"));
     pictures[1].file = folder.path() / "none" / "gather.png";
-    const core::Status judged = frames.judge(pictures);
-    ASSERT_FALSE(judged);
-    EXPECT_NE(judged.error().message.find("gather.png"), std::string::npos);
+    test::expectRefused(frames.judge(pictures), "gather.png");
 }
 
 TEST(CachedTruth, ACachedTruthIsUsedIfBothPicturesHaveTheCasesSize) {

@@ -5,6 +5,7 @@
 #include "engine/io/uri.h"
 #include "game/bench/report/page_parts.h"
 #include "game/bench/report/report_page.h"
+#include "tests/support/outcomes.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -47,15 +48,15 @@ class ReportPage : public ::testing::Test {
     }
 
     std::string readPage() const {
-        const auto bytes = io::readFileBytes(mFolder / "index.html", 1U << 26U);
-        return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : "";
+        const auto bytes = test::valueOf(io::readFileBytes(mFolder / "index.html", 1U << 26U));
+        return {bytes.begin(), bytes.end()};
     }
 
     /// The sentence of a refusal, after which no page must be there.
     std::string refusal(const json& results) const {
         const core::Status status = writeReportPage(results, mFolder);
         EXPECT_FALSE(fs::exists(mFolder / "index.html"));
-        return status ? "(accepted)" : status.error().message;
+        return test::errorOf(status);
     }
 
     const test::TempFolder mTemporary;
@@ -77,25 +78,19 @@ TEST_F(ReportPage, ThePageContainsTheResultsThePicturesAndTheLibrary) {
     EXPECT_FALSE(contains(page, "{{results}}"));
 }
 
-TEST_F(ReportPage, AMissingPictureIsNamed) {
-    json results = makeResults();
-    results["cases"][0]["measurements"] = {{{"errorMap", "images/absent.png"}}};
-    const std::string sentence = refusal(results);
-    EXPECT_TRUE(contains(sentence, "images/absent.png': no such file")) << sentence;
-}
-
-TEST_F(ReportPage, APictureOtherThanPngIsRefused) {
-    write("images/truth.png", "GIF89a");
-    EXPECT_TRUE(contains(refusal(makeResults()), "truth.png' is not a PNG"));
-    write("images/truth.png", "");
-    EXPECT_TRUE(contains(refusal(makeResults()), "truth.png' is not a PNG"));
-}
-
-TEST_F(ReportPage, APictureOutsideTheFolderIsRefused) {
-    for (const char* path : {"../secret.png", "/etc/hostname", "images/../../secret.png"}) {
+TEST_F(ReportPage, PicturesThatAreMissingOutsideTheFolderOrNoPngAreRefused) {
+    for (const char* path :
+         {"images/absent.png", "../secret.png", "/etc/hostname", "images/../../secret.png"}) {
         json results = makeResults();
         results["cases"][0]["truth"]["image"] = path;
         EXPECT_TRUE(contains(refusal(results), path)) << refusal(results);
+    }
+    json results = makeResults();
+    results["cases"][0]["measurements"] = {{{"errorMap", "images/absent.png"}}};
+    EXPECT_TRUE(contains(refusal(results), "images/absent.png': no such file"));
+    for (const char* other : {"GIF89a", ""}) {
+        write("images/truth.png", other);
+        EXPECT_TRUE(contains(refusal(makeResults()), "truth.png' is not a PNG"));
     }
 }
 
@@ -114,64 +109,39 @@ TEST_F(ReportPage, OtherSchemasAndVersionsAreRefused) {
     EXPECT_TRUE(contains(refusal(results), "'methods'"));
 }
 
-TEST_F(ReportPage, TheOldPageRemainsIfTheNewOneFails) {
+TEST_F(ReportPage, TheReportIsRebuiltFromTheResultsFileAndTheOldOneRemainsIfThatFails) {
     ASSERT_TRUE(writeReportPage(makeResults(), mFolder).ok());
     const std::string before = readPage();
+    write("results.json", makeResults().dump());
+    ASSERT_TRUE(remakeReportPage(mFolder).ok());
+    EXPECT_EQ(readPage(), before);
     fs::remove(mFolder / "images/truth.png");
     ASSERT_FALSE(writeReportPage(makeResults(), mFolder).ok());
     EXPECT_EQ(readPage(), before);
 }
 
-TEST_F(ReportPage, TheReportIsRebuiltFromTheResultsFile) {
-    write("results.json", makeResults().dump());
-    ASSERT_TRUE(remakeReportPage(mFolder).ok());
-    const std::string again = readPage();
-    ASSERT_TRUE(writeReportPage(makeResults(), mFolder).ok());
-    EXPECT_EQ(readPage(), again);
-}
-
-TEST_F(ReportPage, AMissingOrBrokenResultsFileIsReported) {
-    const core::Status missing = remakeReportPage(mFolder);
-    ASSERT_FALSE(missing.ok());
-    EXPECT_TRUE(contains(missing.error().message, "results.json': no such file"));
+TEST_F(ReportPage, AMissingBrokenOrEndlesslyNestedResultsFileIsRefused) {
+    test::expectRefused(remakeReportPage(mFolder), "results.json': no such file");
     write("results.json", "{\"schema\": ");
-    const core::Status broken = remakeReportPage(mFolder);
-    ASSERT_FALSE(broken.ok());
-    EXPECT_TRUE(contains(broken.error().message, "results.json' is not valid JSON"));
-}
-
-TEST_F(ReportPage, AnEndlesslyNestedResultsFileIsRefused) {
+    test::expectRefused(remakeReportPage(mFolder), "results.json' is not valid JSON");
     // So deep that what walks it, and calls itself for each level, would run out of stack.
     constexpr size_t kLevels = 1'000'000;
     const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
     std::string text = makeResults().dump();
     text.insert(1, "\"extra\": " + nested + ", ");
     write("results.json", text);
-    const core::Status status = remakeReportPage(mFolder);
-    ASSERT_FALSE(status.ok());
-    EXPECT_TRUE(contains(status.error().message, "deeper than 32 levels"));
+    test::expectRefused(remakeReportPage(mFolder), "deeper than 32 levels");
     EXPECT_FALSE(fs::exists(mFolder / "index.html"));
 }
 
-TEST(FillPage, EachValueIsInsertedInEachOfItsPlaces) {
-    const auto filled = fillPage("{ } <{{a}}>{{b}}{{a}}", {{"a", "one"}, {"b", ""}});
-    ASSERT_TRUE(filled.ok());
-    EXPECT_EQ(filled.value(), "{ } <one>one");
-}
-
-TEST(FillPage, InsertedTextIsNotSearchedAgain) {
-    const auto filled = fillPage("{{a}} {{b}}", {{"a", "{{b}} }} {{"}, {"b", "two"}});
-    ASSERT_TRUE(filled.ok());
-    EXPECT_EQ(filled.value(), "{{b}} }} {{ two");
-}
-
-TEST(FillPage, APlaceWithoutAValueAndAValueWithoutAPlaceAreRefused) {
-    const auto unknown = fillPage("{{a}}{{missing}}", {{"a", "x"}});
-    ASSERT_FALSE(unknown.ok());
-    EXPECT_NE(unknown.error().message.find("'missing'"), std::string::npos);
-    const auto unused = fillPage("{{a}}", {{"a", "x"}, {"extra", "y"}});
-    ASSERT_FALSE(unused.ok());
-    EXPECT_NE(unused.error().message.find("'extra'"), std::string::npos);
+TEST(FillPage, EachValueIsInsertedInEachOfItsPlacesOnceAndBothMustBeThere) {
+    const auto filled = test::valueOf(fillPage("{ } <{{a}}>{{b}}{{a}}", {{"a", "one"}, {"b", ""}}));
+    EXPECT_EQ(filled, "{ } <one>one");
+    const auto nested =
+        test::valueOf(fillPage("{{a}} {{b}}", {{"a", "{{b}} }} {{"}, {"b", "two"}}));
+    EXPECT_EQ(nested, "{{b}} }} {{ two");
+    test::expectRefused(fillPage("{{a}}{{missing}}", {{"a", "x"}}), "'missing'");
+    test::expectRefused(fillPage("{{a}}", {{"a", "x"}, {"extra", "y"}}), "'extra'");
     EXPECT_FALSE(fillPage("{{a}} {{a", {{"a", "x"}}).ok()) << "it does not end";
 }
 
@@ -186,9 +156,6 @@ TEST(EscapeForScript, EscapedTextEndsNeitherTheElementNorTheLine) {
     EXPECT_EQ(escaped.find("\xE2\x80\xA9"), std::string::npos);
     EXPECT_NE(escaped.find("\xE2\x80\x9C"), std::string::npos) << "other characters stay";
     EXPECT_EQ(nlohmann::json::parse(escaped), nlohmann::json::parse(text));
-}
-
-TEST(EscapeForScript, EndsWithItsText) {
     EXPECT_EQ(escapeForScript(""), "");
     EXPECT_EQ(escapeForScript("\xE2\x80"), "\xE2\x80");
     EXPECT_EQ(escapeForScript("\xE2\x80\xA8"), "\\u2028");
@@ -233,14 +200,11 @@ class PagePicturesTest : public testing::Test {
     }
 
     [[nodiscard]] json encode() const {
-        auto encoded = encodePictures(mResults, mFolder.path());
-        EXPECT_TRUE(encoded) << encoded.error().message;
-        return encoded ? encoded.value() : json();
+        return test::valueOf(encodePictures(mResults, mFolder.path()));
     }
 
     [[nodiscard]] std::string refusal() const {
-        const auto encoded = encodePictures(mResults, mFolder.path());
-        return encoded ? "(accepted)" : encoded.error().message;
+        return test::errorOf(encodePictures(mResults, mFolder.path()));
     }
 
     static constexpr uint32_t kWidth = 128;
@@ -248,10 +212,6 @@ class PagePicturesTest : public testing::Test {
     test::TempFolder mFolder;
     json mResults;
 };
-
-bool contains(const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST_F(PagePicturesTest, WholePicturesAreJpegAndCropsAreThePixelsOfTheFile) {
     const json files = encode();
@@ -263,17 +223,15 @@ TEST_F(PagePicturesTest, WholePicturesAreJpegAndCropsAreThePixelsOfTheFile) {
     ASSERT_EQ(parts.size(), 2u);
     EXPECT_EQ(parts.at(1).at("x"), 60);
     EXPECT_EQ(parts.at(1).at("y"), 30);
-    const auto stored = io::readImage(path("a"));
-    ASSERT_TRUE(stored);
+    const image::Image stored = test::valueOf(io::readImage(path("a")));
     image::Image expected(32, 24, 3);
-    expected.channelNames = stored.value().channelNames;
+    expected.channelNames = stored.channelNames;
     for (uint32_t y = 0; y < 24; ++y)
         for (uint32_t x = 0; x < 32; ++x)
             for (uint32_t c = 0; c < 3; ++c)
-                expected.at(x, y, c) = stored.value().at(60 + x, 30 + y, c);
-    const auto bytes = io::encodeImage("a.png", expected);
-    ASSERT_TRUE(bytes);
-    EXPECT_EQ(parts.at(1).at("uri"), "data:image/png;base64," + encodeBase64(bytes.value()));
+                expected.at(x, y, c) = stored.at(60 + x, 30 + y, c);
+    const auto bytes = test::valueOf(io::encodeImage("a.png", expected));
+    EXPECT_EQ(parts.at(1).at("uri"), "data:image/png;base64," + encodeBase64(bytes));
 }
 
 TEST_F(PagePicturesTest, ARivalAtEqualTimeHasOnlyTheFirstCrop) {
@@ -310,23 +268,16 @@ std::string encodeText(std::string_view text) {
     return encodeBase64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
-// RFC 4648, section 10.
-TEST(EncodeBase64, EncodingAgreesWithTheVectorsOfTheStandard) {
-    EXPECT_EQ(encodeText(""), "");
-    EXPECT_EQ(encodeText("f"), "Zg==");
-    EXPECT_EQ(encodeText("fo"), "Zm8=");
-    EXPECT_EQ(encodeText("foo"), "Zm9v");
-    EXPECT_EQ(encodeText("foob"), "Zm9vYg==");
-    EXPECT_EQ(encodeText("fooba"), "Zm9vYmE=");
-    EXPECT_EQ(encodeText("foobar"), "Zm9vYmFy");
-}
-
-TEST(EncodeBase64, EncodedBytesAreDecodedUnchanged) {
+TEST(EncodeBase64, EncodingAgreesWithTheVectorsOfTheStandardAndIsDecodedUnchanged) {
+    // RFC 4648, section 10.
+    const std::string text = "foobar";
+    const char* kEncoded[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    for (size_t i = 0; i <= text.size(); ++i)
+        EXPECT_EQ(encodeText(text.substr(0, i)), kEncoded[i]);
     std::vector<uint8_t> bytes(256);
     std::iota(bytes.begin(), bytes.end(), uint8_t(0));
-    const auto decoded = io::decodeDataUri("data:image/png;base64," + encodeBase64(bytes));
-    ASSERT_TRUE(decoded.ok());
-    EXPECT_EQ(decoded.value(), bytes);
+    const std::string uri = "data:image/png;base64," + encodeBase64(bytes);
+    EXPECT_EQ(test::valueOf(io::decodeDataUri(uri)), bytes);
 }
 
 } // namespace
