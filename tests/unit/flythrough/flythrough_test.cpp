@@ -3,6 +3,8 @@
 #include "engine/flythrough/flythrough.h"
 #include "engine/flythrough/time_ramp.h"
 #include "engine/scene/motion.h"
+#include "tests/support/outcomes.h"
+#include "tests/support/rows.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -58,8 +60,7 @@ Flythrough makeFull() {
 }
 
 std::string errorOf(const std::string& text) {
-    const auto read = parseFlythrough(text, "f.json");
-    return read.ok() ? "no error" : read.error().message;
+    return test::errorOf(parseFlythrough(text, "f.json"));
 }
 
 std::string readText(const std::filesystem::path& path) {
@@ -72,9 +73,7 @@ TEST(Flythrough, AFlythroughIsReadBackBitForBit) {
     const auto path = folder.path() / "f.json";
     const Flythrough written = makeFull();
     ASSERT_TRUE(writeFlythrough(path, written).ok());
-    const auto read = readFlythrough(path);
-    ASSERT_TRUE(read.ok()) << read.error().message;
-    const Flythrough& again = read.value();
+    const Flythrough again = test::valueOf(readFlythrough(path));
     EXPECT_EQ(again.name, written.name);
     EXPECT_EQ(again.fps, written.fps);
     EXPECT_EQ(again.interpolation, written.interpolation);
@@ -99,7 +98,7 @@ TEST(Flythrough, AFlythroughIsReadBackBitForBit) {
     EXPECT_EQ(readText(path), readText(folder.path() / "g.json"));
 }
 
-TEST(Flythrough, TheRateIsANumberOrAFraction) {
+TEST(Flythrough, TheRateIsANumberOrAFractionAndOnlyAVersionAndAKeyAreRequired) {
     const auto read = [](const std::string& fps) {
         return parseFlythrough(
             R"({"version": 1, "fps": )" + fps +
@@ -109,66 +108,36 @@ TEST(Flythrough, TheRateIsANumberOrAFraction) {
     };
     EXPECT_EQ(read("\"24000/1001\"").value().fps, core::FrameRate(24000.0, 1001.0));
     EXPECT_EQ(read("29.97").value().fps, core::FrameRate(29.97));
-    for (const char* wrong :
-         {"\"24\"",
-          "\"24/0\"",
-          "\"0/1\"",
-          "\"1001/1\"",
-          "\"-24/1\"",
-          "\"x\"",
-          "[24000, 1001]",
-          "0"}) {
-        const auto refused = read(wrong);
-        ASSERT_FALSE(refused.ok()) << wrong;
-        EXPECT_NE(refused.error().message.find("f:1: fps: "), std::string::npos)
-            << refused.error().message;
-    }
-}
-
-TEST(Flythrough, OnlyAVersionAndAKeyAreRequired) {
-    const auto read = parseFlythrough(
+    for (const std::string& wrong :
+         test::rowsOf(R"("24"|"24/0"|"0/1"|"1001/1"|"-24/1"|"x"|[24000, 1001]|0)"))
+        test::expectRefused(read(wrong), "f:1: fps: ");
+    const auto least = test::valueOf(parseFlythrough(
         R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 0, 0]}]})", "f"
-    );
-    ASSERT_TRUE(read.ok()) << read.error().message;
-    EXPECT_EQ(read.value().fps, 24.0);
-    EXPECT_EQ(read.value().interpolation, scene::PathInterpolation::CatmullRom);
-    EXPECT_EQ(read.value().ease, scene::PathEase::None);
-    EXPECT_FALSE(makeLens(read.value()).has_value());
-    EXPECT_TRUE(scene::validatePath(makePath(read.value())).ok());
+    ));
+    EXPECT_EQ(least.fps, 24.0);
+    EXPECT_EQ(least.interpolation, scene::PathInterpolation::CatmullRom);
+    EXPECT_EQ(least.ease, scene::PathEase::None);
+    EXPECT_FALSE(makeLens(least).has_value());
+    EXPECT_TRUE(scene::validatePath(makePath(least)).ok());
 }
 
 TEST(Flythrough, FaultsBeyondTheSchemaAreRefusedByName) {
-    const auto file = [](const std::string& keys) {
-        return "{\"version\": 1,\n\"keys\": [\n" + keys + "]}";
-    };
     const std::string first =
         "{\"time\": 1, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 1], \"fieldOfView\": 40},\n";
-    EXPECT_EQ(
-        errorOf(file(
-            first +
-            "{\"time\": 1, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 1], \"fieldOfView\": 40}"
-        )),
-        "f.json:4: keys[1].time: must come after the key before, at 1 s"
-    );
-    EXPECT_EQ(
-        errorOf(file(
-            first +
-            "{\"time\": 2, \"position\": [0, 0, 0], \"rotation\": [0, 0, 0, 1], \"fieldOfView\": 4}"
-        )),
-        "f.json:4: keys[1]: must have lookAt as the first key has"
-    );
-    EXPECT_EQ(
-        errorOf(file(first + "{\"time\": 2, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 0]}")),
-        "f.json:4: keys[1]: must have fieldOfView, as the first key has one"
-    );
-    EXPECT_EQ(
-        errorOf(file("{\"time\": 2, \"position\": [0, 0, 0], \"rotation\": [0, 0, 0.9, 0]}")),
-        "f.json:3: keys[0].rotation: must be of length 1 (x, y, z, w), not 0.9"
-    );
-    EXPECT_EQ(
-        errorOf(file("{\"time\": 2, \"position\": [0, 0, 0]}")),
-        "f.json:3: keys[0]: must have either lookAt or rotation"
-    );
+    const std::pair<std::string, const char*> kFaults[] = {
+        {first + R"({"time": 1, "position": [0, 0, 0], "lookAt": [0, 0, 1], "fieldOfView": 40})",
+         "f.json:4: keys[1].time: must come after the key before, at 1 s"},
+        {first +
+             R"({"time": 2, "position": [0, 0, 0], "rotation": [0, 0, 0, 1], "fieldOfView": 4})",
+         "f.json:4: keys[1]: must have lookAt as the first key has"},
+        {first + R"({"time": 2, "position": [0, 0, 0], "lookAt": [0, 0, 0]})",
+         "f.json:4: keys[1]: must have fieldOfView, as the first key has one"},
+        {R"({"time": 2, "position": [0, 0, 0], "rotation": [0, 0, 0.9, 0]})",
+         "f.json:3: keys[0].rotation: must be of length 1 (x, y, z, w), not 0.9"},
+        {R"({"time": 2, "position": [0, 0, 0]})",
+         "f.json:3: keys[0]: must have either lookAt or rotation"}};
+    for (const auto& [keys, sentence] : kFaults)
+        EXPECT_EQ(errorOf("{\"version\": 1,\n\"keys\": [\n" + keys + "]}"), sentence);
     EXPECT_EQ(
         errorOf("{\"version\": 1, \"up\": [0, 0, 0], \"keys\": []}"),
         "f.json:1: up: must have a direction"
@@ -181,10 +150,7 @@ TEST(Flythrough, AWrongOneIsNotWritten) {
     const auto refuses = [&](auto change, const std::string& mention) {
         Flythrough wrong = makeFull();
         change(wrong);
-        const core::Status written = writeFlythrough(path, wrong);
-        ASSERT_FALSE(written.ok()) << mention;
-        EXPECT_NE(written.error().message.find(mention), std::string::npos)
-            << written.error().message;
+        test::expectRefused(writeFlythrough(path, wrong), mention);
         EXPECT_FALSE(std::filesystem::exists(path));
     };
     refuses([](Flythrough& f) { f.keys.clear(); }, "keys: must have at least 1");
@@ -338,7 +304,7 @@ TEST(TimeRamp, FilmTimeEqualsSceneTimeWithoutScales) {
     EXPECT_EQ(own.rasterTime, plain.rasterTime);
 }
 
-TEST(TimeRamp, ASingleScaleAppliesToAllTime) {
+TEST(TimeRamp, ASingleScaleAppliesToAllTimeAndToALengthInSeconds) {
     const TimeRamp ramp = makeRamp({{1.0, 0.25}});
     for (const double seconds : {-2.0, 0.0, 0.5, 1.0, 7.0}) {
         EXPECT_NEAR(ramp.filmFromScene(seconds), 4.0 * seconds, 1.0e-12);
@@ -351,6 +317,15 @@ TEST(TimeRamp, ASingleScaleAppliesToAllTime) {
     EXPECT_NEAR(exposure.frameSeconds, kFrame / 4.0, 1.0e-12);
     EXPECT_NEAR(exposure.rasterTime, 0.5, 1.0e-9);
     EXPECT_EQ(exposure.raster, 2.0);
+    scene::CameraShutter shutter;
+    shutter.mode = scene::ShutterMode::Physical;
+    shutter.exposureSeconds = 0.02;
+    const auto lasting = makeRamp({{0.0, 0.5}}).computeExposure(shutter, 1.0, kFrame);
+    EXPECT_NEAR(lasting.close - lasting.open, 0.01, 1.0e-12);
+    shutter.exposureSeconds = 0.0;
+    const auto sharp = makeRamp({{0.0, 0.5}}).computeExposure(shutter, 1.0, kFrame);
+    EXPECT_EQ(sharp.open, 1.0);
+    EXPECT_EQ(sharp.close, 1.0);
 }
 
 TEST(TimeRamp, FilmTimeIsTheSumOfSceneTimeOverItsScale) {
@@ -399,18 +374,6 @@ TEST(TimeRamp, ExposuresOfAWholeFrameLeaveNoGap) {
             EXPECT_TRUE(now.open <= now.raster && now.raster <= now.close);
         }
     }
-}
-
-TEST(TimeRamp, ALengthInSecondsIsTheFilms) {
-    scene::CameraShutter shutter;
-    shutter.mode = scene::ShutterMode::Physical;
-    shutter.exposureSeconds = 0.02;
-    const auto exposure = makeRamp({{0.0, 0.5}}).computeExposure(shutter, 1.0, kFrame);
-    EXPECT_NEAR(exposure.close - exposure.open, 0.01, 1.0e-12);
-    shutter.exposureSeconds = 0.0;
-    const auto sharp = makeRamp({{0.0, 0.5}}).computeExposure(shutter, 1.0, kFrame);
-    EXPECT_EQ(sharp.open, 1.0);
-    EXPECT_EQ(sharp.close, 1.0);
 }
 
 } // namespace

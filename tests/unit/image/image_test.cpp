@@ -16,23 +16,17 @@
 namespace shutter::image {
 namespace {
 
-TEST(HalfFloat, RepresentableValuesAreExactAndOthersRoundToTheNearest) {
+TEST(HalfFloat, ValuesAreRoundedToTheNearestHalfFloatAndPackedInTheirOrder) {
     for (const float held : {0.0f, 1.0f, -0.75f, 47.0f / 64.0f, 0x1p-14f, 0x1p-24f, 65504.0f})
         EXPECT_EQ(roundToHalf(held), held);
     // Half floats of [1/2, 1) are 2^-11 apart.
     EXPECT_EQ(roundToHalf(0.5f + 0.4f * 0x1p-11f), 0.5f);
     EXPECT_EQ(roundToHalf(0.5f + 0.6f * 0x1p-11f), 0.5f + 0x1p-11f);
     EXPECT_EQ(roundToHalf(-0.5f - 0.6f * 0x1p-11f), -0.5f - 0x1p-11f);
-}
-
-TEST(HalfFloat, OverflowIsInfinityAndNaNStaysNaN) {
     EXPECT_EQ(roundToHalf(65519.0f), 65504.0f);
     EXPECT_EQ(roundToHalf(65520.0f), std::numeric_limits<float>::infinity());
     EXPECT_EQ(roundToHalf(-1e9f), -std::numeric_limits<float>::infinity());
     EXPECT_TRUE(std::isnan(roundToHalf(std::numeric_limits<float>::quiet_NaN())));
-}
-
-TEST(HalfFloat, APictureIsPackedInItsOrder) {
     Image picture(2, 1, 2);
     picture.pixels = {1.0f, -2.0f, 0.5f, 0.0f};
     // Sign, five bits of exponent with a bias of 15, ten bits of fraction.
@@ -51,16 +45,13 @@ void expectBytes(const std::array<float, 3>& color, const std::array<int, 3>& by
         EXPECT_NEAR(color[c] * 255.0f, float(bytes[c]), within) << c;
 }
 
-TEST(Magma, ColoursGoFromBlackToPaleYellowAsPublished) {
+TEST(Magma, ColoursGoFromBlackToPaleYellowAsPublishedAndGetBrighterAllTheWay) {
     // matplotlib's magma at 0, 64, 128, 191 and 255 of 255.
     expectBytes(colorOf(0.0f), {0, 0, 4}, 0.01f);
     expectBytes(colorOf(64.0f / 255.0f), {81, 18, 124}, 3.0f);
     expectBytes(colorOf(128.0f / 255.0f), {183, 55, 121}, 3.0f);
     expectBytes(colorOf(191.0f / 255.0f), {251, 135, 97}, 3.0f);
     expectBytes(colorOf(1.0f), {252, 253, 191}, 0.01f);
-}
-
-TEST(Magma, GetsBrighterAllTheWay) {
     float last = -1.0f;
     for (int i = 0; i <= 1000; ++i) {
         const auto color = colorOf(float(i) / 1000.0f);
@@ -70,14 +61,11 @@ TEST(Magma, GetsBrighterAllTheWay) {
     }
 }
 
-TEST(Magma, ValuesOutsideTheRangeAreClampedAndNanIsTheWorst) {
+TEST(Magma, TheFirstChannelOfEachPixelIsColouredClampedToItsRangeAndNanAsTheWorst) {
     EXPECT_EQ(colorOf(-3.0f), colorOf(0.0f));
     EXPECT_EQ(colorOf(7.0f), colorOf(1.0f));
     EXPECT_EQ(colorOf(std::numeric_limits<float>::infinity()), colorOf(1.0f));
     EXPECT_EQ(colorOf(std::numeric_limits<float>::quiet_NaN()), colorOf(1.0f));
-}
-
-TEST(Magma, ColoursTheFirstChannelOfEachPixel) {
     Image map(2, 1, 2);
     map.pixels = {1.0f, 0.0f, 0.0f, 1.0f};
     const Image colors = colorWithMagma(map);
@@ -105,7 +93,7 @@ std::string colorOf(const Image& picture) {
     return text + (color->alpha ? "/" + std::to_string(*color->alpha) : "");
 }
 
-TEST(Channels, AColourIsFoundByNamesInAnyOrder) {
+TEST(Channels, AColourIsFoundByNamesInAnyOrderOrByTheNumberOfUnnamedChannels) {
     EXPECT_EQ(colorOf(makeNamed({"R", "G", "B"})), "0,1,2");
     EXPECT_EQ(colorOf(makeNamed({"A", "B", "G", "R", "Z"})), "3,2,1/0");
     EXPECT_EQ(colorOf(makeNamed({"Y"})), "0");
@@ -113,9 +101,6 @@ TEST(Channels, AColourIsFoundByNamesInAnyOrder) {
     EXPECT_EQ(colorOf(makeNamed({"Z", "beauty.R", "beauty.G", "beauty.B", "beauty.A"})), "1,2,3/4");
     EXPECT_EQ(colorOf(makeNamed({"spec.R", "spec.G", "spec.B", "R", "G", "B", "spec.A"})), "3,4,5")
         << "the layer without a name comes first, and another's alpha is not its own";
-}
-
-TEST(Channels, UnnamedChannelsAreIdentifiedByTheirNumber) {
     EXPECT_EQ(colorOf(Image(1, 1, 1)), "0");
     EXPECT_EQ(colorOf(Image(1, 1, 2)), "0/1");
     EXPECT_EQ(colorOf(Image(1, 1, 3)), "0,1,2");
@@ -124,15 +109,12 @@ TEST(Channels, UnnamedChannelsAreIdentifiedByTheirNumber) {
 }
 
 TEST(Channels, MotionDepthAndPartsOfAColourAreNone) {
-    for (const auto& names : std::vector<std::vector<std::string>>{
-             {"motion.x", "motion.y"},
-             {"Z"},
-             {"N.x", "N.y", "N.z"},
-             {"R", "G"},
-             {"R"},
-             {"A"},
-             {"P.X", "P.Y", "P.Z"},
-             {"a.R", "b.G", "c.B"}})
+    using Names = std::vector<std::string>;
+    const Names kNone[] = {{"Z"}, {"R"}, {"A"}, {"R", "G"}, {"motion.x", "motion.y"}};
+    for (const Names& names : kNone)
+        EXPECT_EQ(colorOf(makeNamed(names)), "-") << names.front();
+    const Names kThree[] = {{"N.x", "N.y", "N.z"}, {"P.X", "P.Y", "P.Z"}, {"a.R", "b.G", "c.B"}};
+    for (const Names& names : kThree)
         EXPECT_EQ(colorOf(makeNamed(names)), "-") << names.front();
 }
 
@@ -180,15 +162,12 @@ TEST(Convolution, ConvolutionFollowsTheDefinitionForAllPictureSizes) {
         }
 }
 
-TEST(Convolution, ANanReachesTheKernelsRadius) {
+TEST(Convolution, ANanReachesTheKernelsRadiusAndAnEmptyPictureStaysEmpty) {
     Plane plane(9, 1);
     plane.values[4] = std::numeric_limits<float>::quiet_NaN();
     const Plane filtered = filterAlongX(plane, {0.0f, 1.0f, 0.0f});
     for (size_t x = 0; x < 9; ++x)
         EXPECT_EQ(std::isnan(filtered.values[x]), x >= 3 && x <= 5) << x;
-}
-
-TEST(Convolution, AnEmptyPictureStaysEmpty) {
     EXPECT_TRUE(filterAlongX(Plane(0, 4), {1.0f}).values.empty());
     EXPECT_TRUE(filterAlongY(Plane(4, 0), {1.0f}).values.empty());
 }

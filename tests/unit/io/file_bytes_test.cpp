@@ -6,6 +6,8 @@
 #include "engine/io/process.h"
 #include "engine/io/uri.h"
 #include "engine/io/video.h"
+#include "tests/support/outcomes.h"
+#include "tests/support/rows.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -82,18 +84,12 @@ TEST(ContentHash, HashesHaveThirtyTwoDigitsAndChangeWithEachByte) {
     EXPECT_NE(computeContentHash(""), computeContentHash(std::string(1, '\0')));
 }
 
-TEST(ContentHash, TheHashOfAFileIsThatOfItsBytes) {
-    const test::TempFolder folder;
+TEST(ContentHash, TheHashOfAFileIsThatOfItsBytesAndAMissingFileIsNamed) {
+    const TempFolder folder;
     const std::string bytes("x\0y", 3);
-    const auto hash = computeFileHash(folder.write("a.bin", bytes));
-    ASSERT_TRUE(hash.ok());
-    EXPECT_EQ(hash.value(), computeContentHash(bytes));
-}
-
-TEST(ContentHash, AMissingFileIsNamed) {
-    const auto hash = computeFileHash("no/such/file");
-    ASSERT_FALSE(hash.ok());
-    EXPECT_NE(hash.error().message.find("no/such/file"), std::string::npos);
+    const std::string hash = test::valueOf(computeFileHash(folder.write("a.bin", bytes)));
+    EXPECT_EQ(hash, computeContentHash(bytes));
+    test::expectRefused(computeFileHash("no/such/file"), "no/such/file");
 }
 
 std::string decodeText(std::string_view uri) {
@@ -101,59 +97,31 @@ std::string decodeText(std::string_view uri) {
     return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : "refused";
 }
 
-TEST(DataUri, Base64OfEveryPaddingDecodes) {
+TEST(DataUri, DataOfEveryPaddingTypeAndParameterIsDecoded) {
     EXPECT_EQ(decodeText("data:application/octet-stream;base64,"), "");
     EXPECT_EQ(decodeText("data:;base64,Zg=="), "f");
     EXPECT_EQ(decodeText("data:;base64,Zm8="), "fo");
     EXPECT_EQ(decodeText("data:;base64,Zm9v"), "foo");
     EXPECT_EQ(decodeText("data:;base64,Zm9vYg"), "foob") << "without padding";
-}
-
-TEST(DataUri, PercentEncodedTextDecodes) {
     EXPECT_EQ(decodeText("data:,a%20b%2C"), "a b,");
-}
-
-TEST(DataUri, MediaTypesAndParametersAreRead) {
     EXPECT_EQ(decodeText("data:image/svg+xml;charset=utf-8;BASE64,Zg=="), "f");
     EXPECT_EQ(decodeText("data:;charset=utf-8,a"), "a");
     EXPECT_EQ(decodeText("data:;name=a%20b;base64,Zg%3D%3D"), "f");
 }
 
-TEST(DataUri, InvalidMediaTypesAndParametersAreRefused) {
-    for (const char* header :
-         {";",
-          ";;base64",
-          ";base64;",
-          ";base64;charset=utf-8",
-          ";base64;base64",
-          ";base65",
-          ";charset",
-          ";=utf-8",
-          ";charset=",
-          ";charset=a=b",
-          ";charset=utf 8;base64",
-          "base64",
-          "text;base64",
-          "text/;base64",
-          "/plain;base64",
-          "text/plain/more;base64",
-          " ;base64"}) {
-        EXPECT_EQ(decodeText(std::string("data:") + header + ",Zg=="), "refused") << header;
-    }
-}
-
-TEST(DataUri, PaddingThatFillsNoGroupIsRefused) {
-    for (const char* data : {"Zg=", "Zg===", "Zm8==", "Zm9v=", "Zm9v====", "Z===", "=", "Z=g="})
-        EXPECT_EQ(decodeText(std::string("data:;base64,") + data), "refused") << data;
-    EXPECT_EQ(decodeText("data:;base64,Zh=="), "refused") << "bits after the last byte";
-}
-
 TEST(DataUri, MalformedDataUrisAreRefused) {
-    EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
-    EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
-    EXPECT_EQ(decodeText("data:;base64,Zm9vY"), "refused") << "one digit too many";
-    EXPECT_EQ(decodeText("data:,%4"), "refused");
-    EXPECT_EQ(decodeText("http://x,y"), "refused");
+    for (const std::string& header : test::rowsOf(
+             ";|;;base64|;base64;|;base64;charset=utf-8|;base64;base64|;base65|;charset|;=utf-8|"
+             ";charset=|;charset=a=b|;charset=utf 8;base64|base64|text;base64|text/;base64|"
+             "/plain;base64|text/plain/more;base64| ;base64"
+         ))
+        EXPECT_EQ(decodeText("data:" + header + ",Zg=="), "refused") << header;
+    // Padding that fills no group, bits after the last byte, no base64 digit, one digit too many.
+    for (const std::string& data :
+         test::rowsOf("Zg=|Zg===|Zm8==|Zm9v=|Zm9v====|Z===|=|Z=g=|Zh==|Zm9*|Zm9vY"))
+        EXPECT_EQ(decodeText("data:;base64," + data), "refused") << data;
+    for (const char* uri : {"data:;base64", "data:,%4", "http://x,y"})
+        EXPECT_EQ(decodeText(uri), "refused") << uri;
 }
 
 TEST(ResolveUri, PlainNamesSpacesAndUnicodeStayInTheFolder) {
@@ -170,66 +138,30 @@ TEST(ResolveUri, StepsThatStayInTheFolderAreResolvedInTheText) {
     const TempFolder outside;
     folder.write("sub/deep/a.bin", "x");
     fs::create_symlink(outside.path(), folder.path() / "out");
-    for (const char* uri :
-         {"a.bin",
-          "./a.bin",
-          ".//./a.bin",
-          "sub/../a.bin",
-          "sub/./../a.bin",
-          "sub/deep/../../a.bin",
-          "sub/../sub/deep/../../a.bin",
-          "sub/%2e%2e/a.bin",
-          "sub%2F..%2Fa.bin",
-          "no/such/../../a.bin",
-          "out/../a.bin"})
+    for (const std::string& uri : test::rowsOf(
+             "a.bin|./a.bin|.//./a.bin|sub/../a.bin|sub/./../a.bin|sub/deep/../../a.bin|"
+             "sub/../sub/deep/../../a.bin|sub/%2e%2e/a.bin|sub%2F..%2Fa.bin|no/such/../../a.bin|"
+             "out/../a.bin"
+         ))
         for (const Reach reach : {Reach::Folder, Reach::Anywhere}) {
-            const auto file = resolveUri(folder.path(), uri, reach);
-            ASSERT_TRUE(file) << uri;
-            EXPECT_EQ(file.value(), folder.path() / "a.bin") << uri;
+            const fs::path file = test::valueOf(resolveUri(folder.path(), uri, reach));
+            EXPECT_EQ(file, folder.path() / "a.bin") << uri;
         }
     EXPECT_EQ(resolveUri("", "sub/../a.bin").value(), "./a.bin");
 }
 
-class RefusedUri : public testing::TestWithParam<const char*> {};
-
-TEST_P(RefusedUri, AnUnsafeUriIsAnError) {
+TEST(ResolveUri, UnsafeUrisAreRefusedAndEndlessOnesShortenedInTheMessage) {
     const TempFolder folder;
-    EXPECT_FALSE(resolveUri(folder.path(), GetParam()));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Uris,
-    RefusedUri,
-    testing::Values(
-        "",
-        "../a.bin",
-        "..",
-        "./../a.bin",
-        "sub/../../a.bin",
-        "sub/deep/../../../a.bin",
-        "sub/%2e%2e/%2E%2E/a.bin",
-        "sub\\..\\a.bin",
-        "sub/..\\a.bin",
-        "%2e%2e/a.bin",
-        "..%2fa.bin",
-        "..\\a.bin",
-        "/etc/hostname",
-        "%2Fetc/hostname",
-        "file:///etc/hostname",
-        "FILE:a.bin",
-        "http://127.0.0.1/a.bin",
-        "C:/a.bin",
-        "a%zz.bin",
-        "a%2",
-        "a%00.bin"
-    )
-);
-
-TEST(ResolveUri, AnEndlessUriIsRefusedAndShortenedInTheMessage) {
-    const TempFolder folder;
-    const auto file = resolveUri(folder.path(), std::string(100000, 'a'));
-    ASSERT_FALSE(file);
-    EXPECT_LT(file.error().message.size(), 200u);
+    for (const std::string& uri : test::rowsOf(
+             "|../a.bin|..|./../a.bin|sub/../../a.bin|sub/deep/../../../a.bin|"
+             "sub/%2e%2e/%2E%2E/a.bin|sub\\..\\a.bin|sub/..\\a.bin|%2e%2e/a.bin|..%2fa.bin|"
+             "..\\a.bin|/etc/hostname|%2Fetc/hostname|file:///etc/hostname|FILE:a.bin|"
+             "http://127.0.0.1/a.bin|C:/a.bin|a%zz.bin|a%2|a%00.bin"
+         ))
+        EXPECT_FALSE(resolveUri(folder.path(), uri)) << uri;
+    const auto endless = resolveUri(folder.path(), std::string(100000, 'a'));
+    ASSERT_FALSE(endless);
+    EXPECT_LT(endless.error().message.size(), 200u);
 }
 
 TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
@@ -278,13 +210,12 @@ VideoFrames writeNoise(const std::filesystem::path& folder) {
     for (uint32_t i = 0; i < kFrames; ++i) {
         for (float& value : picture.pixels)
             value = float(random() % 256) / 255.0f;
-        const auto file = folder / fmt::format("frame_{:06}.png", i);
-        EXPECT_TRUE(writeImage(file, picture).ok());
+        EXPECT_TRUE(writeImage(folder / fmt::format("frame_{:06}.png", i), picture).ok());
     }
     return {folder, "frame_%06d.png", kFrames, double(kFrames)};
 }
 
-TEST(Video, AFilmOfAGivenRateKeepsNearIt) {
+TEST(Video, AFilmOfAGivenRateKeepsNearItAndOneForBrowsersIsWebM) {
     const TempFolder folder;
     auto encoder = findVideoEncoder("", {VideoCodec::Vp9, 8, "", 0});
     if (!encoder)
@@ -293,8 +224,7 @@ TEST(Video, AFilmOfAGivenRateKeepsNearIt) {
     const auto encode = [&](uint32_t kilobits, const char* name) {
         encoder.value().format.kilobits = kilobits;
         const auto file = folder.path() / name;
-        const core::Status done = encodeVideo(encoder.value(), frames, file);
-        EXPECT_TRUE(done.ok()) << done.error().message;
+        test::expectDone(encodeVideo(encoder.value(), frames, file));
         return double(std::filesystem::file_size(file)) * 8.0 / 1000.0; // of the film's one second
     };
     const double free = encode(0, "free.webm");
@@ -302,26 +232,13 @@ TEST(Video, AFilmOfAGivenRateKeepsNearIt) {
     EXPECT_GT(free, 1500.0) << "the bound has something to hold";
     EXPECT_LT(held, 1000.0);
     EXPECT_GT(held, 100.0);
-}
-
-TEST(Video, AFilmForBrowsersIsWebM) {
-    const TempFolder folder;
-    const auto encoder = findVideoEncoder("", {VideoCodec::Vp9, 8, "", 200});
-    if (!encoder)
-        GTEST_SKIP() << encoder.error().message;
-    const auto file = folder.path() / "film.webm";
-    ASSERT_TRUE(encodeVideo(encoder.value(), writeNoise(folder.path()), file).ok());
-    const auto bytes = readFileBytes(file, 64);
-    ASSERT_TRUE(bytes.ok());
-    const std::string head(bytes.value().begin(), bytes.value().end());
+    const std::string head = readText(folder.path() / "held.webm").substr(0, 64);
     EXPECT_TRUE(head.starts_with("\x1A\x45\xDF\xA3")) << "EBML";
     EXPECT_NE(head.find("webm"), std::string::npos);
 }
 
 ProcessResult shell(const std::string& script, const std::filesystem::path& folder = ".") {
-    auto run = runProcess("/bin/sh", {"-c", script}, folder);
-    EXPECT_TRUE(run.ok());
-    return std::move(run).value();
+    return test::valueOf(runProcess("/bin/sh", {"-c", script}, folder));
 }
 
 TEST(Process, BothStreamsAndTheExitStatusAreReturned) {
@@ -332,14 +249,6 @@ TEST(Process, BothStreamsAndTheExitStatusAreReturned) {
     EXPECT_EQ(shell("kill -9 $$").exitStatus, 137);
 }
 
-TEST(Process, AProcessRunsInTheGivenFolder) {
-    const TempFolder folder;
-    EXPECT_EQ(
-        shell("pwd -P", folder.path()).output,
-        std::filesystem::canonical(folder.path()).string() + "\n"
-    );
-}
-
 TEST(Process, OutputBeyondAPipesSizeIsReadWithinBounds) {
     const ProcessResult result =
         shell("head -c 3000000 /dev/zero >&2; echo last >&2; head -c 3000000 /dev/zero");
@@ -348,26 +257,20 @@ TEST(Process, OutputBeyondAPipesSizeIsReadWithinBounds) {
     EXPECT_TRUE(result.errors.ends_with("last\n"));
 }
 
-TEST(Process, ArgumentsReachTheProgramAsTheyAre) {
-    const auto run = runProcess("/bin/echo", {"a b", "$HOME", "'\"*"}, ".");
-    ASSERT_TRUE(run.ok());
-    EXPECT_EQ(run.value().output, "a b $HOME '\"*\n");
-}
-
-TEST(Process, AProgramThatIsNotThereIsNamed) {
-    const auto run = runProcess("no/such/program", {}, ".");
-    ASSERT_FALSE(run.ok());
-    EXPECT_NE(run.error().message.find("no/such/program"), std::string::npos);
+TEST(Process, AProcessRunsInTheGivenFolderWithItsArgumentsAsTheyAre) {
+    const TempFolder folder;
+    const std::string place = std::filesystem::canonical(folder.path()).string();
+    EXPECT_EQ(shell("pwd -P", folder.path()).output, place + "\n");
+    const auto run = test::valueOf(runProcess("/bin/echo", {"a b", "$HOME", "'\"*"}, "."));
+    EXPECT_EQ(run.output, "a b $HOME '\"*\n");
+    test::expectRefused(runProcess("no/such/program", {}, "."), "no/such/program");
     EXPECT_FALSE(findProgram("no such program").has_value());
     EXPECT_TRUE(findProgram("sh").has_value());
 }
 
 TEST(Video, AProgramOtherThanFfmpegIsRefused) {
-    for (const char* program : {"/bin/true", "/bin/false", "no/such/ffmpeg"}) {
-        const auto encoder = findVideoEncoder(program);
-        ASSERT_FALSE(encoder.ok()) << program;
-        EXPECT_NE(encoder.error().message.find(program), std::string::npos);
-    }
+    for (const char* program : {"/bin/true", "/bin/false", "no/such/ffmpeg"})
+        test::expectRefused(findVideoEncoder(program), program);
 }
 
 TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
@@ -380,22 +283,16 @@ TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         return findVideoEncoder(program, format);
     };
-    const auto best = pretend(" V mpeg4 x\n V libx264 y");
-    ASSERT_TRUE(best.ok()) << best.error().message;
-    EXPECT_EQ(best.value().codec, "libx264");
-    EXPECT_EQ(best.value().version, "ffmpeg version 9");
-    const auto second = pretend(" V libx264rgb y\n V mpeg4 x");
-    ASSERT_TRUE(second.ok());
-    EXPECT_EQ(second.value().codec, "mpeg4");
+    const auto best = test::valueOf(pretend(" V mpeg4 x\n V libx264 y"));
+    EXPECT_EQ(best.codec, "libx264");
+    EXPECT_EQ(best.version, "ffmpeg version 9");
+    EXPECT_EQ(test::valueOf(pretend(" V libx264rgb y\n V mpeg4 x")).codec, "mpeg4");
     EXPECT_FALSE(pretend(" V gif x").ok());
     // A codec requested by name has no substitute.
-    const auto deep = pretend(" V mpeg4 x\n V libx264 y", {VideoCodec::H264, 10, ""});
-    ASSERT_TRUE(deep.ok()) << deep.error().message;
-    EXPECT_EQ(deep.value().codec, "libx264");
-    EXPECT_FALSE(pretend(" V mpeg4 x", {VideoCodec::H264, 10, ""}).ok());
-    const auto other = pretend(" V libx264 y", {VideoCodec::Av1, 8, ""});
-    ASSERT_FALSE(other.ok());
-    EXPECT_NE(other.error().message.find("libaom-av1"), std::string::npos);
+    const VideoFormat h264{VideoCodec::H264, 10, ""};
+    EXPECT_EQ(test::valueOf(pretend(" V mpeg4 x\n V libx264 y", h264)).codec, "libx264");
+    EXPECT_FALSE(pretend(" V mpeg4 x", h264).ok());
+    test::expectRefused(pretend(" V libx264 y", {VideoCodec::Av1, 8, ""}), "libaom-av1");
     EXPECT_FALSE(pretend(" V libx264 y", {VideoCodec::ProRes, 10, ""}).ok());
 }
 
