@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Options as words of a command line, and the errors for wrong ones.
+// Options as words of a command line, as the program takes them.
 #pragma once
 
 #include "engine/core/result.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace shutter::game {
 
 using Words = std::vector<std::string>;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <class T> [[nodiscard]] std::string wordOf(const T& value) {
-    return fmt::format("{}", value);
-}
 
 /// Parses as the program does. \param define adds the options to a CLI::App
 template <class Define> [[nodiscard]] core::Status parseWords(Words words, const Define& define) {
@@ -42,15 +32,6 @@ template <class Define> [[nodiscard]] core::Status parseWords(Words words, const
         return core::Error{error.what()};
     }
     return {};
-}
-
-/// The error names `option`, is one line and ends without a full stop.
-template <class T> void expectRefused(const core::Result<T>& result, const std::string& option) {
-    ASSERT_FALSE(result.ok()) << option;
-    const std::string& message = result.error().message;
-    EXPECT_NE(message.find(option), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_NE(message.back(), '.') << message;
 }
 
 } // namespace shutter::game

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/io/file_bytes.h"
+// Flythroughs by options, and which options a picture depends on.
+#include "game/options/option_rows.h"
 #include "game/options/render_arguments.h"
 #include "game/shot/shot.h"
+#include "tests/support/outcomes.h"
+#include "tests/support/rows.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/options/command_words.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,31 +20,30 @@ namespace {
 class Flight : public testing::Test {
   protected:
     Flight() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        mFile = std::filesystem::path(testing::TempDir()) /
-                (std::string("flight_") + test->name() + ".json");
         write(R"({"version": 1, "fps": 10, "keys": [
             {"time": 0.25, "position": [0, 0, 1], "lookAt": [0, 0, 0],
              "shutter": {"exposure": 0.125}},
             {"time": 0.6, "position": [0, 0, 2], "lookAt": [0, 0, 0],
              "shutter": {"shutterAngle": 90, "phase": "start"}}]})");
         mArguments.scene = "scene.glb";
-        mArguments.flythrough = mFile.string();
     }
 
-    ~Flight() override { std::filesystem::remove(mFile); }
-
-    void write(const std::string& text) const { ASSERT_TRUE(io::writeFileText(mFile, text).ok()); }
+    void write(const std::string& text) {
+        mArguments.flythrough = mFolder.write("flight.json", text).string();
+    }
 
     [[nodiscard]] ShotOptions load() const {
-        auto options = interpret(mArguments);
-        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
-        const core::Status loaded = loadFlythrough(mArguments, options.value());
-        EXPECT_TRUE(loaded.ok()) << (loaded.ok() ? "" : loaded.error().message);
-        return std::move(options).value();
+        ShotOptions options = test::valueOf(interpret(mArguments));
+        test::expectDone(loadFlythrough(mArguments, options));
+        return options;
     }
 
-    std::filesystem::path mFile;
+    void refuse(const std::string& sentence) const {
+        ShotOptions options = test::valueOf(interpret(mArguments));
+        test::expectRefused(loadFlythrough(mArguments, options), sentence);
+    }
+
+    test::TempFolder mFolder;
     ShotArguments mArguments;
 };
 
@@ -92,27 +92,18 @@ TEST_F(Flight, SlowMotionHasMoreFramesOfShorterExposures) {
     EXPECT_EQ(load().frameTimes, std::vector<double>{options.frameTimes[2]});
 }
 
-TEST_F(Flight, ARampBeyondAllTimesIsRefused) {
+TEST_F(Flight, FlightsWithoutATimeForEachFrameOrWithTooManyAreRefused) {
+    write(R"({"version": 1, "fps": 1000, "keys": [
+        {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0]},
+        {"time": 1000, "position": [0, 0, 1], "lookAt": [0, 0, 0]}]})");
+    refuse("--flythrough: 1000001 frames are too many");
     write(R"({"version": 1, "fps": 10, "keys": [
         {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0], "timeScale": 1000}]})");
     mArguments.fps = 1.0e-3;
     mArguments.frames = "0:1001";
-    auto options = interpret(mArguments);
-    ASSERT_TRUE(options.ok()) << options.error().message;
-    const core::Status loaded = loadFlythrough(mArguments, options.value());
-    ASSERT_FALSE(loaded.ok());
-    EXPECT_NE(loaded.error().message.find("timeScale"), std::string::npos);
-}
-
-TEST_F(Flight, AnOverlongFlightIsRefused) {
-    write(R"({"version": 1, "fps": 1000, "keys": [
-        {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0]},
-        {"time": 1000, "position": [0, 0, 1], "lookAt": [0, 0, 0]}]})");
-    auto options = interpret(mArguments);
-    ASSERT_TRUE(options.ok());
-    const core::Status loaded = loadFlythrough(mArguments, options.value());
-    ASSERT_FALSE(loaded.ok());
-    EXPECT_EQ(loaded.error().message, "--flythrough: 1000001 frames are too many");
+    refuse("timeScale");
+    mArguments.flythrough = "clip:";
+    test::expectRefused(interpret(mArguments), "--flythrough clip:");
 }
 
 TEST_F(Flight, EachFrameHasTheShutterOfItsTime) {
@@ -126,13 +117,6 @@ TEST_F(Flight, EachFrameHasTheShutterOfItsTime) {
     EXPECT_DOUBLE_EQ(last.close, 0.6 + 0.025);
     options.isFlythroughShutter = false;
     EXPECT_EQ(makeView(shot, options, 0.6).exposure.close, 0.6);
-}
-
-TEST_F(Flight, AClipWithoutANameOrIndexIsRefused) {
-    mArguments.flythrough = "clip:";
-    const auto options = interpret(mArguments);
-    ASSERT_FALSE(options.ok());
-    EXPECT_NE(options.error().message.find("--flythrough clip:"), std::string::npos);
 }
 
 TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
@@ -158,9 +142,7 @@ TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     const ecs::Entity rider = addCamera({2}, crane);
     ShotOptions options;
     options.flythroughClip = "pan";
-    const auto chosen = chooseClipCamera(world, options);
-    ASSERT_TRUE(chosen.ok()) << chosen.error().message;
-    EXPECT_EQ(chosen.value(), rider);
+    EXPECT_EQ(test::valueOf(chooseClipCamera(world, options)), rider);
     EXPECT_EQ(world.playback.activeClips, (std::vector<bool>{true, true, false}));
     ASSERT_TRUE(planClipFrames(world, options).ok());
     EXPECT_EQ(options.frameTimes.size(), 13u); // 0 to 12 at 24 a second
@@ -168,114 +150,67 @@ TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     EXPECT_FALSE(chooseClipCamera(world, options).ok());
     options.camera.clear();
     options.flythroughClip = "tilt";
-    const auto missing = chooseClipCamera(world, options);
-    ASSERT_FALSE(missing.ok());
-    EXPECT_NE(missing.error().message.find("clip:tilt"), std::string::npos);
+    test::expectRefused(chooseClipCamera(world, options), "clip:tilt");
 }
+
+// An option and its value, then what it needs.
+constexpr const char* kMatters =
+    "--aa taa|--ambient 1,1,1|--aov motion|--background 1,1,1|--bloom 0.1|--bloom-knee 0.1|"
+    "--bloom-threshold 2|--budget 8|--camera x|--camera-rotation-blur 0.5|"
+    "--camera-translation-blur 0.5|--clip x|--cut-angle 7|--cut-detection off|--cut-distance 7|"
+    "--environment-intensity 2|--environment-rotation 45|--error 0.1 --method truth|--ev 1|"
+    "--exposure 1|--focus 3 --method truth|--focus-entity x --method truth|--fps 25|"
+    "--frame-fit height|--fstop 8 --method truth|--instants auto --method accumulate|--loop|"
+    "--max-blur 4|--max-step 2 --method accumulate --instants auto|--method gather|"
+    "--object-blur 0.5|--particles off|--phase start|--pixel box --method truth|--rays none|"
+    "--preset paper|--reference-fps 30 --shutter-mode capped|--response triangle|--samples 3|"
+    "--seed 3|--set history=false|--shadow-distance 7|--shadow-instants 7|"
+    "--shadow-map-size 128|--shadows sharp|--shutter-angle 90|--shutter-mode angle|--size 8x8|"
+    "--sky 2.5|--time 1|--tonemap none|--unlit|--response trapezoid:0.1,0.2|"
+    "--shutter-mode capped";
+
+constexpr const char* kMattersNot =
+    "--advice|--device llvmpipe|--dry-run|--dump-graph|--explain|--frames 0:3|--hash-passes h.json|"
+    "--repeat 3|--restart|--stats s.json|--validate|"
+    // The content of these files counts, and what a time of framing chooses.
+    "--allow-outside|--environment e.hdr|--flythrough f.json|--framing-time 1";
+
+/// Which need frames or a film, or are where the picture goes.
+constexpr const char* kNotAlone =
+    "--bit-depth|--codec|--ffmpeg|--keep-frames|--out|--part|--timecode";
 
 TEST(Fingerprint, TheFingerprintHasExactlyThePicturesInputs) {
     const auto describe = [](Words words) {
         words.insert(words.begin(), {"scene.glb", "--out", "f_%d.png"});
         RenderArguments arguments;
-        const core::Status typed =
-            parseWords(words, [&](CLI::App& command) { defineRenderOptions(command, arguments); });
-        EXPECT_TRUE(typed.ok()) << (typed.ok() ? "" : typed.error().message);
-        const auto options = interpret(arguments);
-        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
-        return options ? options.value().fingerprint : std::string();
+        test::expectDone(parseWords(words, [&](CLI::App& command) {
+            defineRenderOptions(command, arguments);
+        }));
+        return test::valueOf(interpret(arguments)).fingerprint;
     };
     const std::string plain = describe({});
-    const std::map<std::string, Words> matters = {
-        {"--aa", {"--aa", "taa"}},
-        {"--ambient", {"--ambient", "1,1,1"}},
-        {"--aov", {"--aov", "motion"}},
-        {"--background", {"--background", "1,1,1"}},
-        {"--bloom", {"--bloom", "0.1"}},
-        {"--bloom-knee", {"--bloom-knee", "0.1"}},
-        {"--bloom-threshold", {"--bloom-threshold", "2"}},
-        {"--budget", {"--budget", "8"}},
-        {"--camera", {"--camera", "x"}},
-        {"--camera-rotation-blur", {"--camera-rotation-blur", "0.5"}},
-        {"--camera-translation-blur", {"--camera-translation-blur", "0.5"}},
-        {"--clip", {"--clip", "x"}},
-        {"--cut-angle", {"--cut-angle", "7"}},
-        {"--cut-detection", {"--cut-detection", "off"}},
-        {"--cut-distance", {"--cut-distance", "7"}},
-        {"--environment-intensity", {"--environment-intensity", "2"}},
-        {"--environment-rotation", {"--environment-rotation", "45"}},
-        {"--error", {"--method", "truth", "--error", "0.1"}},
-        {"--ev", {"--ev", "1"}},
-        {"--exposure", {"--exposure", "1"}},
-        {"--focus", {"--method", "truth", "--focus", "3"}},
-        {"--focus-entity", {"--method", "truth", "--focus-entity", "x"}},
-        {"--fps", {"--fps", "25"}},
-        {"--frame-fit", {"--frame-fit", "height"}},
-        {"--fstop", {"--method", "truth", "--fstop", "8"}},
-        {"--instants", {"--method", "accumulate", "--instants", "auto"}},
-        {"--loop", {"--loop"}},
-        {"--max-blur", {"--max-blur", "4"}},
-        {"--max-step", {"--method", "accumulate", "--instants", "auto", "--max-step", "2"}},
-        {"--method", {"--method", "gather"}},
-        {"--object-blur", {"--object-blur", "0.5"}},
-        {"--particles", {"--particles", "off"}},
-        {"--phase", {"--phase", "start"}},
-        {"--pixel", {"--method", "truth", "--pixel", "box"}},
-        {"--rays", {"--rays", "none"}},
-        {"--preset", {"--preset", "paper"}},
-        {"--reference-fps", {"--shutter-mode", "capped", "--reference-fps", "30"}},
-        {"--response", {"--response", "triangle"}},
-        {"--samples", {"--samples", "3"}},
-        {"--seed", {"--seed", "3"}},
-        {"--set", {"--set", "history=false"}},
-        {"--shadow-distance", {"--shadow-distance", "7"}},
-        {"--shadow-instants", {"--shadow-instants", "7"}},
-        {"--shadow-map-size", {"--shadow-map-size", "128"}},
-        {"--shadows", {"--shadows", "sharp"}},
-        {"--shutter-angle", {"--shutter-angle", "90"}},
-        {"--shutter-mode", {"--shutter-mode", "angle"}},
-        {"--size", {"--size", "8x8"}},
-        {"--sky", {"--sky", "2.5"}},
-        {"--time", {"--time", "1"}},
-        {"--tonemap", {"--tonemap", "none"}},
-        {"--unlit", {"--unlit"}}};
-    const std::map<std::string, Words> doesNot = {
-        {"--advice", {"--advice"}},
-        {"--bit-depth", {}},                      // needs a film
-        {"--allow-outside", {"--allow-outside"}}, // identified by content
-        {"--codec", {}},                          // needs a film
-        {"--device", {"--device", "llvmpipe"}},
-        {"--dry-run", {"--dry-run"}},
-        {"--dump-graph", {"--dump-graph"}},
-        {"--environment", {"--environment", "e.hdr"}}, // identified by content
-        {"--explain", {"--explain"}},
-        {"--ffmpeg", {}},                             // needs a film
-        {"--flythrough", {"--flythrough", "f.json"}}, // identified by content
-        {"--frames", {"--frames", "0:3"}},
-        {"--framing-time", {"--framing-time", "1"}}, // identified as resolved
-        {"--hash-passes", {"--hash-passes", "h.json"}},
-        {"--keep-frames", {}}, // needs a film
-        {"--out", {}},
-        {"--part", {}}, // needs frames
-        {"--repeat", {"--repeat", "3"}},
-        {"--restart", {"--restart"}},
-        {"--stats", {"--stats", "s.json"}},
-        {"--timecode", {}}, // needs a film
-        {"--validate", {"--validate"}}};
     std::set<std::string> fingerprints = {plain};
-    for (const auto& [option, words] : matters)
-        EXPECT_TRUE(fingerprints.insert(describe(words)).second) << option;
-    for (const auto& [option, words] : doesNot)
-        EXPECT_EQ(describe(words), plain) << option;
+    std::set<std::string> listed = {"--help"};
+    for (const std::string& name : test::rowsOf(kNotAlone))
+        listed.insert(name);
+    for (const std::string& row : test::rowsOf(kMattersNot)) {
+        const Words words = splitAt(row, ' ');
+        EXPECT_EQ(describe(words), plain) << row;
+        listed.insert(words.front());
+    }
+    for (const std::string& row : test::rowsOf(kMatters)) {
+        const Words words = splitAt(row, ' ');
+        EXPECT_TRUE(fingerprints.insert(describe(words)).second) << row;
+        listed.insert(words.front());
+    }
     // A new option must be put in one of the lists.
     CLI::App app;
     RenderArguments arguments;
     defineRenderOptions(app, arguments);
-    for (const CLI::Option* option : app.get_options()) {
-        const std::string name = option->get_name();
-        if (name.starts_with("--") && name != "--help") {
-            EXPECT_TRUE(matters.contains(name) || doesNot.contains(name)) << name;
+    for (const CLI::Option* option : app.get_options())
+        if (option->get_name().starts_with("--")) {
+            EXPECT_TRUE(listed.contains(option->get_name())) << option->get_name();
         }
-    }
 }
 
 } // namespace
