@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Journals of sequences, time codes, and files of statistics.
+// Journals of sequences, time codes, and intermediates that can be written.
 #include "engine/io/file_bytes.h"
+#include "game/output/extra_files.h"
 #include "game/output/render_options.h"
 #include "game/output/sequence_journal.h"
+#include "game/shot/picture_drawer.h"
+#include "tests/support/outcomes.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -23,14 +26,11 @@ using Before = SequenceJournal::Before;
 class JournalOfASequence : public testing::Test {
   protected:
     fs::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(mFolder / name, std::ios::binary) << text;
-        return mFolder / name;
+        return mTemporary.write(name, text);
     }
 
     [[nodiscard]] SequenceJournal open(const std::string& fingerprint) const {
-        auto opened = SequenceJournal::open(file(), fingerprint);
-        EXPECT_TRUE(opened.ok());
-        return std::move(opened).value();
+        return test::valueOf(SequenceJournal::open(file(), fingerprint));
     }
 
     [[nodiscard]] bool isComplete(const SequenceJournal& journal, int frame) const {
@@ -99,20 +99,15 @@ TEST_F(JournalOfASequence, ATruncatedJournalStaysValid) {
 }
 
 TEST_F(JournalOfASequence, AJournalIsReadWithoutWriting) {
-    const auto missing = SequenceJournal::read(file(), "a");
-    ASSERT_TRUE(missing.ok());
-    EXPECT_EQ(missing.value().frameCount(), 0u);
+    EXPECT_EQ(test::valueOf(SequenceJournal::read(file(), "a")).frameCount(), 0u);
     EXPECT_FALSE(fs::exists(file()));
     ASSERT_TRUE(open("a").add(2, {write("f_0002.png", "x")}).ok());
     const std::string cut = text() + "{\"files\": ["; // another process is adding to it
     ASSERT_TRUE(io::writeFileText(file(), cut).ok());
-    const auto read = SequenceJournal::read(file(), "a");
-    ASSERT_TRUE(read.ok());
-    EXPECT_EQ(read.value().frameCount(), 1u);
-    EXPECT_TRUE(isComplete(read.value(), 2));
-    const auto other = SequenceJournal::read(file(), "b");
-    ASSERT_TRUE(other.ok());
-    EXPECT_EQ(other.value().frameCount(), 0u);
+    const auto read = test::valueOf(SequenceJournal::read(file(), "a"));
+    EXPECT_EQ(read.frameCount(), 1u);
+    EXPECT_TRUE(isComplete(read, 2));
+    EXPECT_EQ(test::valueOf(SequenceJournal::read(file(), "b")).frameCount(), 0u);
     EXPECT_EQ(text(), cut);
 }
 
@@ -121,16 +116,14 @@ TEST_F(JournalOfASequence, FramesOfAnotherJournalAreMerged) {
     ASSERT_TRUE(part.add(2, {write("f_0002.png", "x")}).ok());
     const fs::path wholeFile = mFolder / ".whole.journal";
     {
-        auto whole = SequenceJournal::open(wholeFile, "a");
-        ASSERT_TRUE(whole.ok());
-        ASSERT_TRUE(whole.value().addFrom(part, 2).ok());
-        ASSERT_TRUE(whole.value().addFrom(part, 3).ok());
-        EXPECT_EQ(whole.value().frameCount(), 1u);
+        auto whole = test::valueOf(SequenceJournal::open(wholeFile, "a"));
+        ASSERT_TRUE(whole.addFrom(part, 2).ok());
+        ASSERT_TRUE(whole.addFrom(part, 3).ok());
+        EXPECT_EQ(whole.frameCount(), 1u);
     }
-    const auto again = SequenceJournal::read(wholeFile, "a");
-    ASSERT_TRUE(again.ok());
-    EXPECT_TRUE(isComplete(again.value(), 2));
-    EXPECT_FALSE(isComplete(again.value(), 3));
+    const auto again = test::valueOf(SequenceJournal::read(wholeFile, "a"));
+    EXPECT_TRUE(isComplete(again, 2));
+    EXPECT_FALSE(isComplete(again, 3));
 }
 
 TEST_F(JournalOfASequence, AnInvalidFileStartsANewJournal) {
@@ -151,19 +144,19 @@ TEST_F(JournalOfASequence, AnInvalidFileStartsANewJournal) {
 }
 
 TEST_F(JournalOfASequence, FilesOutsideTheFolderAreNoFrames) {
-    const fs::path outside = mFolder.parent_path() / "sequence_outside.png";
-    std::ofstream(outside) << "x";
+    const test::TempFolder other;
+    const fs::path outside = other.write("outside.png", "x");
     const std::string hash = io::computeFileHash(outside).value();
     (void)open("a");
     const std::string header = text();
-    for (const std::string& name : {std::string("../sequence_outside.png"), outside.string()}) {
+    const fs::path above = ".." / other.path().filename() / "outside.png";
+    for (const std::string& name : {above.string(), outside.string()}) {
         const std::string line = "{\"frame\": 0, \"files\": [{\"name\": \"" + name +
                                  "\", \"hash\": \"" + hash + "\"}]}\n";
         ASSERT_TRUE(io::writeFileText(file(), header + line).ok());
         EXPECT_FALSE(isComplete(open("a"), 0)) << name;
         EXPECT_EQ(text(), header) << "its line is gone";
     }
-    fs::remove(outside);
 }
 
 TEST_F(JournalOfASequence, AnothersPictureCompletesNoFrame) {
@@ -179,17 +172,13 @@ TEST_F(JournalOfASequence, AnothersPictureCompletesNoFrame) {
 }
 
 TEST_F(JournalOfASequence, UnreadableOrUnwritableJournalsAreNamed) {
-    const auto nowhere = SequenceJournal::open(mFolder / "no/such/.journal", "a");
-    ASSERT_FALSE(nowhere.ok());
-    EXPECT_NE(nowhere.error().message.find("no/such/.journal"), std::string::npos);
+    test::expectRefused(
+        SequenceJournal::open(mFolder / "no/such/.journal", "a"), "no/such/.journal"
+    );
     SequenceJournal journal = open("a");
-    const core::Status missing = journal.add(0, {mFolder / "missing.png"});
-    ASSERT_FALSE(missing.ok());
-    EXPECT_NE(missing.error().message.find("missing.png"), std::string::npos);
+    test::expectRefused(journal.add(0, {mFolder / "missing.png"}), "missing.png");
     fs::remove(file());
-    const core::Status gone = journal.add(0, {write("f_0000.png", "x")});
-    ASSERT_FALSE(gone.ok());
-    EXPECT_NE(gone.error().message.find(".f_%04d.png.journal"), std::string::npos);
+    test::expectRefused(journal.add(0, {write("f_0000.png", "x")}), ".f_%04d.png.journal");
 }
 
 TEST(SequenceJournalFile, TheJournalIsAHiddenFileNextToThePictures) {
@@ -216,7 +205,7 @@ std::string find(const RenderOptions& options, size_t frame) {
     return found.value() ? describe(*found.value()) : "-";
 }
 
-TEST(TimecodeTest, TimecodesCountFramesSecondsMinutesHoursAndDays) {
+TEST(TimecodeTest, TimecodesCountFramesToDaysFromTheGivenOne) {
     const RenderOptions options = makeOptions("01:02:03:20", 24.0);
     EXPECT_EQ(find(options, 0), "01:02:03:20");
     EXPECT_EQ(find(options, 3), "01:02:03:23");
@@ -225,38 +214,33 @@ TEST(TimecodeTest, TimecodesCountFramesSecondsMinutesHoursAndDays) {
     EXPECT_EQ(find(makeOptions("23:59:59:29", 29.97), 1), "00:00:00:00");
     EXPECT_EQ(find(makeOptions("00:59:59:20", {24000.0, 1001.0}), 24), "01:00:00:20");
     EXPECT_EQ(find(makeOptions("", 24.0), 5), "-");
-}
-
-TEST(TimecodeTest, TheTimecodeBeginsAtTheGivenOne) {
-    RenderOptions options = makeOptions("frame", 25.0);
-    options.shot.firstFrame = 1001;
-    EXPECT_EQ(find(options, 0), "00:00:40:01");
-    EXPECT_EQ(find(options, 24), "00:00:41:00");
-    options.shot.firstFrame = -1;
-    EXPECT_EQ(find(options, 0), "--timecode frame: frame -1 has none");
+    RenderOptions numbered = makeOptions("frame", 25.0);
+    numbered.shot.firstFrame = 1001;
+    EXPECT_EQ(find(numbered, 0), "00:00:40:01");
+    EXPECT_EQ(find(numbered, 24), "00:00:41:00");
+    numbered.shot.firstFrame = -1;
+    EXPECT_EQ(find(numbered, 0), "--timecode frame: frame -1 has none");
 }
 
 TEST(TimecodeTest, InvalidTimesAreRefused) {
-    EXPECT_EQ(
-        find(makeOptions("00:00:00:24", 24.0), 0),
-        "--timecode 00:00:00:24: a second has 24 frames, numbered from 0"
-    );
-    EXPECT_EQ(
-        find(makeOptions("24:00:00:00", 24.0), 0),
-        "--timecode 24:00:00:00: a day has 24 hours, numbered from 0"
-    );
-    EXPECT_EQ(
-        find(makeOptions("00:00:00:00", 60.0), 0),
-        "--timecode: an EXR's counts 30 frames a second at most, and --fps is 60"
-    );
-    EXPECT_EQ(
-        find(makeOptions("00:00:00:00", {60000.0, 1001.0}), 0),
-        "--timecode: an EXR's counts 30 frames a second at most, and --fps is 60000/1001"
-    );
-    EXPECT_EQ(
-        find(makeOptions("00:00:00:01", 1.0), 0),
-        "--timecode 00:00:00:01: a second has 1 frame, numbered from 0"
-    );
+    struct Row {
+        const char* timecode;
+        core::FrameRate fps;
+        const char* sentence;
+    };
+
+    const Row kRows[] = {
+        {"00:00:00:24", 24.0, " 00:00:00:24: a second has 24 frames, numbered from 0"},
+        {"24:00:00:00", 24.0, " 24:00:00:00: a day has 24 hours, numbered from 0"},
+        {"00:00:00:01", 1.0, " 00:00:00:01: a second has 1 frame, numbered from 0"},
+        {"00:00:00:00", 60.0, ": an EXR's counts 30 frames a second at most, and --fps is 60"},
+        {"00:00:00:00",
+         {60000.0, 1001.0},
+         ": an EXR's counts 30 frames a second at most, and --fps is 60000/1001"}};
+    for (const Row& row : kRows)
+        EXPECT_EQ(
+            find(makeOptions(row.timecode, row.fps), 0), "--timecode" + std::string(row.sentence)
+        );
     RenderOptions film = makeOptions("00:00:00:59", 60.0);
     film.output.film = "film.mp4";
     EXPECT_EQ(find(film, 1), "00:00:01:00");
@@ -265,18 +249,23 @@ TEST(TimecodeTest, InvalidTimesAreRefused) {
 TEST(FrameStampTest, OnlyFramesOfASequenceHaveAStamp) {
     RenderOptions options = makeOptions("01:02:03:20", {24000.0, 1001.0});
     options.shot.isSequence = true;
-    const auto stamp = findStamp(options, 4);
-    ASSERT_TRUE(stamp.ok() && stamp.value());
-    EXPECT_EQ(stamp.value()->rate, core::FrameRate(24000.0, 1001.0));
-    EXPECT_EQ(describe(stamp.value()->timecode.value()), "01:02:04:00");
+    const auto stamp = test::valueOf(findStamp(options, 4)).value();
+    EXPECT_EQ(stamp.rate, core::FrameRate(24000.0, 1001.0));
+    EXPECT_EQ(describe(stamp.timecode.value()), "01:02:04:00");
     options.output.video.timecode.clear();
-    const auto untimed = findStamp(options, 0);
-    ASSERT_TRUE(untimed.ok() && untimed.value());
-    EXPECT_FALSE(untimed.value()->timecode);
+    EXPECT_FALSE(test::valueOf(findStamp(options, 0)).value().timecode);
     options.shot.isSequence = false;
-    const auto single = findStamp(options, 0);
-    ASSERT_TRUE(single.ok());
-    EXPECT_FALSE(single.value());
+    EXPECT_FALSE(test::valueOf(findStamp(options, 0)));
+}
+
+TEST(Intermediates, AllIntermediatesOfAMethodCanBeWrittenAndViewed) {
+    for (const MethodInfo& method : listMethods())
+        for (const std::string& name : listIntermediates(method)) {
+            const debug_view::ViewInfo* view = debug_view::findView(name);
+            ASSERT_TRUE(view) << method.name << " has " << name;
+            EXPECT_FALSE(view->channels.empty()) << name;
+            EXPECT_EQ(debug_view::listSources(name), std::set{name});
+        }
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/lens.h"
 #include "game/play/panel/play_settings.h"
+#include "tests/support/outcomes.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/panel/random_settings.h"
 
 #include <gtest/gtest.h>
@@ -19,15 +21,6 @@ using game::PlaySettings;
 
 class PlaySettingsFile : public ::testing::Test {
   protected:
-    PlaySettingsFile()
-        : mPath(
-              std::filesystem::path(::testing::TempDir()) /
-              (std::string("play_settings_") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json")
-          ) {}
-
-    ~PlaySettingsFile() override { std::filesystem::remove(mPath); }
-
     [[nodiscard]] std::string read() const {
         std::ostringstream text;
         text << std::ifstream(mPath).rdbuf();
@@ -36,16 +29,14 @@ class PlaySettingsFile : public ::testing::Test {
 
     /// The error of loading that text, without the path, or nothing.
     [[nodiscard]] std::string refuse(const std::string& text) const {
-        std::ofstream(mPath) << text;
-        const auto loaded = game::loadPlaySettings(mPath);
-        if (loaded)
-            return "";
-        const std::string& message = loaded.error().message;
-        EXPECT_TRUE(message.starts_with(mPath.string() + ":")) << message;
+        const std::string message =
+            test::errorOf(game::loadPlaySettings(mFolder.write("settings.json", text)));
+        EXPECT_TRUE(message.empty() || message.starts_with(mPath.string() + ":")) << message;
         return message.substr(std::min(message.size(), mPath.string().size() + 1));
     }
 
-    std::filesystem::path mPath;
+    const test::TempFolder mFolder;
+    const std::filesystem::path mPath = mFolder.path() / "settings.json";
 };
 
 /// Calls visit(row, owner, prefix) with all rows of all owners.
@@ -82,17 +73,16 @@ TEST_F(PlaySettingsFile, SettingsAreReadBackAsWritten) {
         ASSERT_TRUE(game::validate(settings).ok()) << game::validate(settings).error().message;
         ASSERT_TRUE(game::savePlaySettings(mPath, settings).ok());
         const std::string first = read();
-        const auto loaded = game::loadPlaySettings(mPath);
-        ASSERT_TRUE(loaded.ok()) << loaded.error().message;
-        ASSERT_TRUE(game::savePlaySettings(mPath, loaded.value()).ok());
+        const auto loaded = test::valueOf(game::loadPlaySettings(mPath));
+        ASSERT_TRUE(game::savePlaySettings(mPath, loaded).ok());
         ASSERT_EQ(read(), first);
-        EXPECT_EQ(loaded.value().method, settings.method);
-        EXPECT_EQ(loaded.value().view, settings.view);
-        EXPECT_EQ(loaded.value().shutter.response.samples, settings.shutter.response.samples);
-        EXPECT_EQ(loaded.value().blur.softDepthExtent, settings.blur.softDepthExtent);
-        EXPECT_EQ(loaded.value().blur.halfResolutionPx, settings.blur.halfResolutionPx);
-        EXPECT_EQ(loaded.value().shutter.maxBlurPercent, settings.shutter.maxBlurPercent);
-        EXPECT_EQ(loaded.value().lens.focusDistance, settings.lens.focusDistance);
+        EXPECT_EQ(loaded.method, settings.method);
+        EXPECT_EQ(loaded.view, settings.view);
+        EXPECT_EQ(loaded.shutter.response.samples, settings.shutter.response.samples);
+        EXPECT_EQ(loaded.blur.softDepthExtent, settings.blur.softDepthExtent);
+        EXPECT_EQ(loaded.blur.halfResolutionPx, settings.blur.halfResolutionPx);
+        EXPECT_EQ(loaded.shutter.maxBlurPercent, settings.shutter.maxBlurPercent);
+        EXPECT_EQ(loaded.lens.focusDistance, settings.lens.focusDistance);
     }
 }
 
@@ -108,90 +98,50 @@ TEST(PlaySettingsRows, EveryRowHasALabelForPeopleThatNoOtherOfItsTableHas) {
 }
 
 TEST_F(PlaySettingsFile, OnlyTheVersionIsRequired) {
-    std::ofstream(mPath) << R"({"version": 1})";
-    const auto loaded = game::loadPlaySettings(mPath);
-    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
-    ASSERT_TRUE(game::savePlaySettings(mPath, loaded.value()).ok());
+    const auto loaded =
+        test::valueOf(game::loadPlaySettings(mFolder.write("least.json", R"({"version": 1})")));
+    ASSERT_TRUE(game::savePlaySettings(mPath, loaded).ok());
     const std::string fromFile = read();
     ASSERT_TRUE(game::savePlaySettings(mPath, PlaySettings{}).ok());
     EXPECT_EQ(fromFile, read());
 }
 
 TEST_F(PlaySettingsFile, InvalidSettingsAreRefusedWithLineAndField) {
-    EXPECT_EQ(
-        refuse("{\"version\": 1,\n \"blur\": {\n  \"jitter\": 2}}"),
-        "3: blur.jitter: must lie in [0, 1], not 2"
-    );
-    EXPECT_EQ(
-        refuse("{\"version\": 1,\n \"method\": \"hybird\"}").substr(0, 26),
-        "2: method: 'hybird' is not"
-    );
+    const std::pair<const char*, const char*> kRefused[] = {
+        {"\n \"blur\": {\n  \"jitter\": 2}", "3: blur.jitter: must lie in [0, 1], not 2"},
+        {"\n \"method\": \"hybird\"", "2: method: 'hybird' is not"},
+        {"\n \"lens\": {\"fStop\": 0.001}",
+         "2: lens: fStop is 0.001, it must be 0 or at least 0.01"},
+        {R"("lens": {"focusDistance": 1e-6})",
+         "1: lens: focusDistance is 1e-06, it must be 0 or at least 0.0001"},
+        {R"("lens": {"blurScale": 3})", "lens.blurScale"},
+        {R"("colour": 1)", "colour: is not a field"},
+        {R"("shutter": {"cuts": {"enabled": 1}})", "shutter.cuts.enabled: must be true or false"},
+        {R"("blur": {"neighbourhoodTiles": 4})",
+         "blur.neighbourhoodTiles: must be 1 to 15 tiles in steps of 2, not 4"},
+        {R"("blur": {"maxMotionDepth": "far"})",
+         "blur.maxMotionDepth: 'far' is not one of unlimited"},
+        {R"("blur": {"jitter": "unlimited"})", "blur.jitter: must be a number"},
+        // A response without light.
+        {R"("shutter": {"response": {"shape": "samples", "samples": [0, 0]}})",
+         "shutter.response: samples are all 0"},
+        {R"("shutter": {"response": {"shape": "trapezoid", "openShare": 0.6, "closeShare": 0.6}})",
+         "are more than the exposure"},
+        {R"("shutter": {"response": {"samples": [1, -1]}})", "shutter.response.samples[1]"}};
+    for (const auto& [members, sentence] : kRefused) {
+        const std::string refused = refuse("{\"version\": 1, " + std::string(members) + "}");
+        EXPECT_NE(refused.find(sentence), std::string::npos) << members << ": " << refused;
+    }
     EXPECT_EQ(refuse("{\"version\": 2}"), "1: version: must lie in [1, 1], not 2");
     EXPECT_NE(refuse("{}"), "");
-    EXPECT_NE(
-        refuse("{\"version\": 1, \"colour\": 1}").find("colour: is not a field"), std::string::npos
-    );
-    EXPECT_NE(
-        refuse("{\"version\": 1, \"shutter\": {\"cuts\": {\"enabled\": 1}}}")
-            .find("shutter.cuts.enabled: must be true or false"),
-        std::string::npos
-    );
-    EXPECT_NE(
-        refuse("{\"version\": 1, \"blur\": {\"neighbourhoodTiles\": 4}}")
-            .find("blur.neighbourhoodTiles: must be 1 to 15 tiles in steps of 2, not 4"),
-        std::string::npos
-    );
-    EXPECT_NE(
-        refuse("{\"version\": 1, \"blur\": {\"maxMotionDepth\": \"far\"}}")
-            .find("blur.maxMotionDepth: 'far' is not one of unlimited"),
-        std::string::npos
-    );
-    EXPECT_NE(
-        refuse("{\"version\": 1, \"blur\": {\"jitter\": \"unlimited\"}}")
-            .find("blur.jitter: must be a number"),
-        std::string::npos
-    );
-}
-
-TEST_F(PlaySettingsFile, IsRefusedWhereTheLensIsBetweenTheCamerasOwnAndTheLeastOne) {
-    EXPECT_EQ(
-        refuse("{\"version\": 1,\n \"lens\": {\"fStop\": 0.001}}"),
-        "2: lens: fStop is 0.001, it must be 0 or at least 0.01"
-    );
-    EXPECT_EQ(
-        refuse("{\"version\": 1, \"lens\": {\"focusDistance\": 1e-6}}"),
-        "1: lens: focusDistance is 1e-06, it must be 0 or at least 0.0001"
-    );
-    EXPECT_NE(refuse("{\"version\": 1, \"lens\": {\"blurScale\": 3}}"), "");
-    EXPECT_EQ(refuse("{\"version\": 1, \"lens\": {\"fStop\": 2.8, \"blurScale\": 0}}"), "");
-}
-
-TEST_F(PlaySettingsFile, AResponseWithoutLightIsRefused) {
-    const auto respond = [&](const std::string& response) {
-        return refuse("{\"version\": 1, \"shutter\": {\"response\": {" + response + "}}}");
-    };
-    EXPECT_NE(
-        respond("\"shape\": \"samples\", \"samples\": [0, 0]")
-            .find("shutter.response: samples are all 0"),
-        std::string::npos
-    );
-    EXPECT_NE(
-        respond("\"shape\": \"trapezoid\", \"openShare\": 0.6, \"closeShare\": 0.6")
-            .find("are more than the exposure"),
-        std::string::npos
-    );
-    EXPECT_NE(
-        respond("\"samples\": [1, -1]").find("shutter.response.samples[1]"), std::string::npos
-    );
-    EXPECT_EQ(respond("\"samples\": []"), "");
+    EXPECT_EQ(refuse(R"({"version": 1, "lens": {"fStop": 2.8, "blurScale": 0}})"), "");
+    EXPECT_EQ(refuse(R"({"version": 1, "shutter": {"response": {"samples": []}}})"), "");
 }
 
 TEST_F(PlaySettingsFile, InvalidSettingsAreNotWritten) {
     PlaySettings settings;
     settings.dividerShare = 1.5;
-    const core::Status saved = game::savePlaySettings(mPath, settings);
-    ASSERT_FALSE(saved.ok());
-    EXPECT_NE(saved.error().message.find("dividerShare is 1.5"), std::string::npos);
+    test::expectRefused(game::savePlaySettings(mPath, settings), "dividerShare is 1.5");
     EXPECT_FALSE(std::filesystem::exists(mPath));
 }
 
@@ -248,11 +198,10 @@ TEST(PlaySettings, ReducedMotionTakesTheCamerasPartAlone) {
     EXPECT_EQ(game::makeShutter(settings).objectScale, 1.2);
 }
 
-TEST(PlaySettings, TheMethodIsTheBlursOwnDefault) {
+TEST(
+    PlaySettings, TheMethodIsTheBlursOwnDefaultAndRaysOfTheDenoisedOneAreNotTheSamplesOfTheOthers
+) {
     EXPECT_EQ(PlaySettings().method, motion_blur::getDefaultMethod().name);
-}
-
-TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
     PlaySettings settings;
     settings.blur.sampleCount = 31;
     settings.denoisedRays = 2;
@@ -301,7 +250,7 @@ TEST(Presets, DepthOfFieldIsThePresetsAndItsScaleThePlayers) {
     }
 }
 
-TEST(Presets, PresetsAreValidDistinctAndApplied) {
+TEST(Presets, PresetsAreValidDistinctAndAppliedAndTurningTheBlurOffKeepsItsSettings) {
     for (const game::Preset& preset : game::listPresets()) {
         PlaySettings settings = test::RandomSettings(1).make();
         const scene::CameraShutter shutter = settings.shutter;
@@ -313,9 +262,6 @@ TEST(Presets, PresetsAreValidDistinctAndApplied) {
                 << preset.name << " and " << other.name;
     }
     EXPECT_EQ(game::listPresets().size(), 5u);
-}
-
-TEST(Presets, TurningTheBlurOffKeepsItsSettings) {
     PlaySettings settings;
     settings.blur.sampleCount = 77;
     game::applyPreset(game::listPresets().front(), settings);

@@ -2,6 +2,7 @@
 // Scenes of others that are added to, and the shots that are made so.
 #include "assets/generator/lens_shots.h"
 #include "assets/generator/scenes.h"
+#include "tests/support/rows.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -74,28 +75,22 @@ TEST(OpenedScene, DocumentsThatCannotBeExtendedAreRefused) {
     };
     const std::string valid = R"("buffers": [{"byteLength": 0}], "scenes": [{"nodes": []}])";
     EXPECT_EQ(furnish(valid), "");
-    for (const char* members :
-         {R"("extensionsUsed": {})",
-          R"("extensionsUsed": "x")",
-          R"("nodes": {})",
-          R"("nodes": [1])",
-          R"("nodes": [{"name": 5}])",
-          R"("nodes": [{"extensions": []}])",
-          R"("nodes": [{"extensions": {"KHR_physics_rigid_bodies": 1}}])",
-          R"("materials": 3)",
-          R"("accessors": {})",
-          R"("bufferViews": "x")",
-          R"("meshes": [[]])",
-          R"("cameras": [null])"})
+    for (const std::string& members : test::rowsOf(
+             R"("extensionsUsed": {}|"extensionsUsed": "x"|"nodes": {}|"nodes": [1]|)"
+             R"("nodes": [{"name": 5}]|"nodes": [{"extensions": []}]|)"
+             R"("nodes": [{"extensions": {"KHR_physics_rigid_bodies": 1}}]|"materials": 3|)"
+             R"("accessors": {}|"bufferViews": "x"|"meshes": [[]]|"cameras": [null])"
+         ))
         EXPECT_NE(furnish(valid + ", " + members).find("in.glb"), std::string::npos) << members;
-    for (const char* members :
-         {R"("buffers": [{"byteLength": 0}])",
-          R"("buffers": [{"byteLength": 0}], "scenes": {})",
-          R"("buffers": [{"byteLength": 0}], "scenes": [{}, {}])",
-          R"("buffers": [{"byteLength": 0}], "scenes": [{"nodes": {}}])",
-          R"("buffers": [{"uri": "a.bin"}], "scenes": [{"nodes": []}])",
-          R"("buffers": {"a": {}}, "scenes": [{"nodes": []}])"})
-        EXPECT_NE(furnish(members).find("in.glb"), std::string::npos) << members;
+    const std::string buffers = R"("buffers": [{"byteLength": 0}])";
+    for (const char* scenes :
+         {"", R"(, "scenes": {})", R"(, "scenes": [{}, {}])", R"(, "scenes": [{"nodes": {}}])"})
+        EXPECT_NE(furnish(buffers + scenes).find("in.glb"), std::string::npos) << scenes;
+    for (const char* wrong : {R"([{"uri": "a.bin"}])", R"({"a": {}})"}) {
+        const std::string members = "\"buffers\": " + std::string(wrong);
+        const std::string refused = furnish(members + R"(, "scenes": [{"nodes": []}])");
+        EXPECT_NE(refused.find("in.glb"), std::string::npos) << wrong;
+    }
 }
 
 TEST(LensShots, EachFurnishesARoom) {

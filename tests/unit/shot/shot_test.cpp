@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Clips, instants, methods and the passes that count as theirs.
+#include "engine/render/post_effect.h"
 #include "game/shot/clips.h"
 #include "game/shot/methods.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
+#include "tests/support/outcomes.h"
 
 #include <gtest/gtest.h>
 
@@ -184,37 +186,34 @@ TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {
     for (const auto& [wanted, clip] : {std::pair("take", 2u), {"0", 0u}, {"2", 2u}}) {
         mOptions.flythroughClip = wanted;
         select({}, clip);
-        const auto chosen = chooseClipCamera(mWorld, mOptions);
-        ASSERT_TRUE(chosen) << chosen.error().message;
-        EXPECT_EQ(chosen.value(), camera);
+        EXPECT_EQ(test::valueOf(chooseClipCamera(mWorld, mOptions)), camera);
         expectActive({clip == 0, true, clip == 2});
         mOptions.frameTimes.clear();
         EXPECT_TRUE(planClipFrames(mWorld, mOptions));
     }
     mOptions.flythroughClip = "1";
-    const auto still = chooseClipCamera(mWorld, mOptions);
-    ASSERT_FALSE(still);
-    expectContains(still.error().message, "--flythrough clip:1 moves no camera");
+    const char* still = "--flythrough clip:1 moves no camera";
+    test::expectRefused(chooseClipCamera(mWorld, mOptions), still);
     mOptions.flythroughClip = "7";
-    const auto missing = chooseClipCamera(mWorld, mOptions);
-    ASSERT_FALSE(missing);
-    expectContains(missing.error().message, "(0 without a name, 1 'take', 2 'take')");
+    const char* listed = "(0 without a name, 1 'take', 2 'take')";
+    test::expectRefused(chooseClipCamera(mWorld, mOptions), listed);
 }
 
-TEST(Instants, AStaticFrameTakesOneInstant) {
+TEST(Instants, AStaticFrameTakesOneInstantAndAMovingLightSome) {
     const InstantChoice choice = chooseInstants({}, 1.0, 1024);
     EXPECT_EQ(choice.count, 1u);
     EXPECT_EQ(choice.reason, "nothing moves");
+    const InstantChoice lit = chooseInstants({0.0, true}, 1.0, 1024);
+    EXPECT_EQ(lit.count, kMinInstantsOfLight);
+    EXPECT_EQ(lit.reason, "only light moves");
+    EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
 }
 
-TEST(Instants, InstantsAreNoFartherApartThanTheStep) {
+TEST(Instants, InstantsAreNoFartherApartThanTheStepUpToTheMaximum) {
     EXPECT_EQ(chooseInstants({10.0, false}, 1.0, 1024).count, 10u);
     EXPECT_EQ(chooseInstants({10.1, false}, 1.0, 1024).count, 11u);
     EXPECT_EQ(chooseInstants({10.0, false}, 4.0, 1024).count, 3u);
     EXPECT_EQ(chooseInstants({0.2, false}, 1.0, 1024).count, 1u);
-}
-
-TEST(Instants, TheMaximumLimitsInstantsAndTheStepIsReported) {
     const InstantChoice choice = chooseInstants({1000.0, false}, 1.0, 100);
     EXPECT_EQ(choice.count, 100u);
     EXPECT_DOUBLE_EQ(choice.stepPx, 10.0);
@@ -222,29 +221,74 @@ TEST(Instants, TheMaximumLimitsInstantsAndTheStepIsReported) {
     EXPECT_EQ(chooseInstants({std::numeric_limits<double>::infinity(), false}, 1.0, 7).count, 7u);
 }
 
-TEST(Instants, AMovingLightTakesInstantsWithoutOtherMotion) {
-    const InstantChoice choice = chooseInstants({0.0, true}, 1.0, 1024);
-    EXPECT_EQ(choice.count, kMinInstantsOfLight);
-    EXPECT_EQ(choice.reason, "only light moves");
-    EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
-}
-
-TEST(Methods, EachIsFoundByItsOwnNameAndASampleUnitHasADefault) {
+TEST(Methods, EachIsFoundByItsOwnNameAndAnUnknownOneAnsweredWithThem) {
     for (const MethodInfo& method : listMethods()) {
-        const auto found = findMethod(method.name);
-        ASSERT_TRUE(found.ok());
-        EXPECT_EQ(found.value(), &method);
+        EXPECT_EQ(test::valueOf(findMethod(method.name)), &method);
         EXPECT_FALSE(std::string(method.description).empty());
         EXPECT_EQ(method.sampleUnit.has_value(), method.defaultSamples != 0) << method.name;
     }
-}
-
-TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
-    const auto found = findMethod("nosuch");
-    ASSERT_FALSE(found.ok());
+    const auto unknown = findMethod("nosuch");
+    ASSERT_FALSE(unknown.ok());
     for (const char* part :
          {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate", "truth"})
-        EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
+        EXPECT_NE(unknown.error().message.find(part), std::string::npos) << part;
+}
+
+using render::PassOwner;
+
+PassGroup groupIn(const char* method, PassOwner owner) {
+    return groupOf(*findMethod(method).value(), owner);
+}
+
+/// An effect with the minimal interface.
+class PlainEffect : public render::PostEffect {
+    [[nodiscard]] std::string name() const override { return "plain"; }
+
+    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override { return {}; }
+
+    void declare(render::PostContext&) override {}
+};
+
+TEST(PassGroups, AMethodPaysForItsBlurItsRaysAndAllThatItDrawsItself) {
+    for (const char* method : {"hybrid", "denoised"}) {
+        EXPECT_EQ(groupIn(method, PassOwner::Scene), PassGroup::Scene) << method;
+        EXPECT_EQ(groupIn(method, PassOwner::Rays), PassGroup::Blur) << method;
+        EXPECT_EQ(groupIn(method, PassOwner::Blur), PassGroup::Blur) << method;
+    }
+    for (const PassOwner owner : {PassOwner::Scene, PassOwner::Rays, PassOwner::Other})
+        EXPECT_NE(groupIn("sharp", owner), PassGroup::Blur);
+    EXPECT_EQ(groupIn("gather", PassOwner::Rays), PassGroup::Other);
+    for (const char* method : {"accumulate", "truth"})
+        EXPECT_EQ(groupIn(method, PassOwner::Scene), PassGroup::Blur) << method;
+}
+
+TEST(PassGroups, AFilterOfTheLensIsWhatASharpMethodAdds) {
+    MethodInfo filtered = *findMethod("sharp").value();
+    filtered.lensFilter = &depth_of_field::getFilter("near_far");
+    EXPECT_EQ(groupOf(filtered, PassOwner::Blur), PassGroup::Blur);
+    EXPECT_EQ(groupOf(filtered, PassOwner::Scene), PassGroup::Scene);
+    EXPECT_EQ(groupIn("sharp", PassOwner::Blur), PassGroup::Scene);
+}
+
+TEST(PassGroups, NoMethodPaysForAnEffectThatClaimsNothingOrForTheDisplay) {
+    for (const MethodInfo& method : listMethods()) {
+        EXPECT_EQ(groupOf(method, PlainEffect().owner()), PassGroup::Other) << method.name;
+        EXPECT_EQ(groupOf(method, PassOwner::Display), PassGroup::Display) << method.name;
+    }
+}
+
+TEST(PassGroups, SumsCountEachPassOnce) {
+    render::FrameStatistics frame;
+    frame.passes = {
+        {{"deform meshes", 1.0}, PassOwner::Scene},
+        {{"build TLAS", 2.0}, PassOwner::Rays},
+        {{"G-buffer", 4.0}, PassOwner::Scene},
+        {{"gather", 8.0}, PassOwner::Blur},
+        {{"bloom", 32.0}, PassOwner::Other},
+        {{"tone map", 16.0}, PassOwner::Display}};
+    EXPECT_EQ(sumBlurMilliseconds(*findMethod("hybrid").value(), frame), 10.0);
+    EXPECT_EQ(sumBlurMilliseconds(*findMethod("accumulate").value(), frame), 13.0);
+    EXPECT_EQ(sumFrameMilliseconds(frame), 47.0);
 }
 
 } // namespace
