@@ -43,7 +43,7 @@ BROKEN = ("ParticleLaw.ACameraPanBlursParticlesLikeTheWorld",
 # Not run: up to minutes each, mostly because the driver compiles `resolved` again for each picture.
 SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.WhatIsPreparedAhead*", "InstantNoises.*",
         "MethodSettingsLaw.*", "ParticleLaw.*Instant*", "ParticleLaw.OverGlass*", "PhaseLaw.*",
-        "PictureDrawerTest.AFrameInWhichSomethingJumps*", "Resolved*", "SecondRaster.*")
+        "PictureDrawerTest.AFrameInWhichSomethingJumps*", "Resolved*")
 
 
 def find_lavapipe():

@@ -3,14 +3,18 @@
 // places for their share of the light, in every method.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
+#include "tests/image/laws.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,20 +45,24 @@ class HistoryLaw : public test::RayTest {
 
     /// With frames of no duration there is no exposure: the sharp picture of the same method.
     static void expectSharp(Stage& stage, const std::string& what, bool sharp) {
-        for (const std::string_view method : test::listRasterMethods(device()))
+        std::vector<std::string_view> methods = test::pickMethods(
+            test::listRasterMethods(device()), {"accumulate", "hybrid", "resolved"}
+        );
+        methods.emplace_back("truth");
+        for (const std::string_view method : methods)
             if (method != "sharp") {
                 EXPECT_EQ(test::sameBits(draw(stage, method), draw(stage, method, 0.0)), sharp)
                     << what << ", " << method;
             }
-        EXPECT_EQ(test::sameBits(draw(stage, "truth"), draw(stage, "truth", 0.0)), sharp)
-            << what << ", truth";
     }
 
     /// In every method that blurs, a share of one picture and the rest of another. `truth` draws a
     /// jump out over 1/1024 of the exposure: one of a pixel's 16 rays may be on its other side.
     static void
     expectMean(Stage& stage, const image::Image& one, double share, const image::Image& other) {
-        std::vector<std::string_view> methods = test::listBlurMethods(device());
+        // All blurs draw the exposure in parts; what they draw of each differs most in these two.
+        std::vector<std::string_view> methods =
+            test::pickMethods(test::listBlurMethods(device()), {"hybrid", "resolved"});
         methods.insert(methods.end(), {"accumulate", "truth"});
         for (const std::string_view method : methods) {
             const image::Image picture = draw(stage, method);
@@ -72,18 +80,18 @@ class HistoryLaw : public test::RayTest {
 };
 
 struct PastScene {
-    SceneBuilder builder;
+    SceneBuilder builder = test::makeWavyRoom(5.0, 9.0, 7.0);
     ecs::Entity parent;
     ecs::Entity mover;
 
     explicit PastScene(const math::dvec3& cameraTurn) {
-        builder.setPerspective(0.9);
-        builder.add(test::makeQuad(9, 7, builder.addWaves()), {.position = {0, 0, -5}});
-        parent = builder.world.registry.create();
-        mover = builder.add(
-            test::makeBox({0.8, 0.8, 0.8}, builder.addColor({0.9f, 0.2f, 0.1f})),
+        mover = test::addBox(
+            builder,
+            {0.8, 0.8, 0.8},
+            {0.9f, 0.2f, 0.1f},
             {.position = {-2.5, 0, -2.5}, .velocity = {2.5, 0.2, 0}}
         );
+        parent = builder.world.registry.create();
         builder.world.registry.add(mover, scene::Parent{parent});
         builder.moveCamera({.angularVelocity = cameraTurn});
     }
@@ -111,35 +119,30 @@ TEST_F(HistoryLaw, AppearedOrTeleportedEntitiesAreSharpForThatFrame) {
     }
 }
 
-TEST_F(HistoryLaw, EntitiesThatAppearDuringTheExposureAreVisibleFromThenOn) {
+TEST_F(HistoryLaw, EntitiesShownOrHiddenDuringTheExposureAreVisibleForTheirShareOfIt) {
     PastScene scene({0, 0, 0});
+    scene::World& world = scene.builder.world;
     Stage stage(device(), scene.builder);
     const image::Image there = draw(stage, "sharp");
-    scene::hide(scene.builder.world, scene.mover);
+    scene::hide(world, scene.mover);
     const image::Image without = draw(stage, "sharp");
-    scene::show(scene.builder.world, scene.mover, 0.98);
+    scene::show(world, scene.mover, 0.98);
     expectMean(stage, without, 0.25, there);
     EXPECT_TRUE(test::sameBits(draw(stage, "sharp"), there)) << "at the raster instant it is there";
-    scene::appear(scene.builder.world, scene.mover, 1.04);
+    scene::appear(world, scene.mover, 1.04);
     expectMean(stage, there, 1.0, without);
-}
-
-TEST_F(HistoryLaw, EntitiesHiddenDuringTheExposureAreVisibleUntilThen) {
-    PastScene scene({0, 0, 0});
-    scene.builder.world.registry.remove<scene::LinearVelocity>(scene.mover);
-    scene.builder.world.registry.get<scene::LocalTransform>(scene.mover).transform.translation.x =
-        0.0;
-    Stage stage(device(), scene.builder);
-    const image::Image there = draw(stage, "sharp");
-    scene::hide(scene.builder.world, scene.mover);
-    const image::Image without = draw(stage, "sharp");
-    scene::hide(scene.builder.world, scene.mover, 0.98);
-    expectMean(stage, there, 0.25, without);
-    EXPECT_TRUE(test::sameBits(draw(stage, "sharp"), without)) << "at the raster instant it is not";
-    scene::hide(scene.builder.world, scene.mover, 1.04);
-    expectMean(stage, there, 1.0, without);
-    scene::hide(scene.builder.world, scene.mover, 0.96);
-    expectMean(stage, there, 0.0, without);
+    // One that stands still.
+    PastScene still({0, 0, 0});
+    scene::World& stillWorld = still.builder.world;
+    stillWorld.registry.remove<scene::LinearVelocity>(still.mover);
+    stillWorld.registry.get<scene::LocalTransform>(still.mover).transform.translation.x = 0.0;
+    Stage stillStage(device(), still.builder);
+    const image::Image standing = draw(stillStage, "sharp");
+    for (const auto& [seconds, share] : {std::pair{0.98, 0.25}, {1.04, 1.0}, {0.96, 0.0}}) {
+        scene::hide(stillWorld, still.mover, seconds);
+        expectMean(stillStage, standing, share, without);
+        EXPECT_EQ(test::sameBits(draw(stillStage, "sharp"), without), seconds < 1.0);
+    }
 }
 
 TEST_F(HistoryLaw, EntitiesThatAppearUnderAMovingCameraHaveTheCamerasBlur) {
@@ -167,12 +170,8 @@ struct JumpScene {
 
     explicit JumpScene(const math::dvec3& place = {20.0, 8.0, -5.0}) {
         builder.setPixelView(64);
-        builder.add(
-            test::makeQuad(400, 400, builder.addColor(math::vec3(kWall))), {.position = {0, 0, -9}}
-        );
-        box = builder.add(
-            test::makeQuad(12, 12, builder.addColor(math::vec3(kBox))), {.position = place}
-        );
+        test::addCard(builder, {400, 400}, math::vec3(kWall), {.position = {0, 0, -9}});
+        box = test::addCard(builder, {12, 12}, math::vec3(kBox), {.position = place});
     }
 
     void animate(
@@ -197,10 +196,9 @@ struct JumpScene {
         std::vector<float> times,
         std::vector<vec4> values
     ) {
-        const ecs::Entity parent = builder.world.registry.create();
-        builder.world.registry.add(parent, scene::LocalTransform{});
-        builder.world.registry.add(box, scene::Parent{parent});
-        animate(parent, path, interpolation, std::move(times), std::move(values));
+        animate(
+            test::addParent(builder, box), path, interpolation, std::move(times), std::move(values)
+        );
     }
 };
 
@@ -218,12 +216,6 @@ Shot shotOf(std::string_view method, scene::ShutterPhase phase = scene::ShutterP
 
 class JumpLaw : public test::GpuTest {
   protected:
-    std::vector<std::string_view> listMethods() {
-        std::vector<std::string_view> methods = test::listBlurMethods(device());
-        methods.emplace_back("accumulate");
-        return methods;
-    }
-
     /// The square's contribution over the wall as a share of its full contribution, at a pixel
     /// relative to the picture's centre, up and right.
     static double shareAt(const image::Image& picture, int x, int y) {
@@ -250,11 +242,10 @@ class JumpLaw : public test::GpuTest {
         return {least, most};
     }
 
-    static void expectShares(
-        const image::Image& picture,
-        const std::vector<std::pair<math::dvec2, double>>& expected,
-        const std::string& what
-    ) {
+    using Shares = std::vector<std::pair<math::dvec2, double>>;
+
+    static void
+    expectShares(const image::Image& picture, const Shares& expected, const std::string& what) {
         std::vector<math::dvec2> places;
         for (const auto& [place, share] : expected) {
             EXPECT_NEAR(shareAt(picture, int(place.x), int(place.y)), share, 0.01) << what;
@@ -264,11 +255,33 @@ class JumpLaw : public test::GpuTest {
         EXPECT_GT(least, -0.002) << what;
         EXPECT_LT(most, 0.002) << what;
     }
+
+    /// In every method; by default the filter with rays, lookups, and brute force.
+    static void expectSharesInEachMethod(
+        const SceneBuilder& scene,
+        const Shares& expected,
+        const std::function<void(Shot&)>& change = {},
+        const std::vector<scene::ShutterPhase>& phases = {scene::ShutterPhase::End}
+    ) {
+        Stage stage(device(), scene);
+        std::vector<std::string_view> methods =
+            test::pickMethods(test::listBlurMethods(device()), {"hybrid", "resolved"});
+        methods.emplace_back("accumulate");
+        for (const std::string_view method : methods)
+            for (const scene::ShutterPhase phase : phases) {
+                Shot shot = shotOf(method, phase);
+                if (change)
+                    change(shot);
+                const image::Image picture = stage.render(shot).color;
+                expectShares(picture, expected, fmt::format("{} {}", method, int(phase)));
+            }
+    }
 };
 
 TEST_F(JumpLaw, AppearingOrVanishingEntitiesCoverTheirPlaceForTheirShareOfTheExposure) {
     for (const float hidden : {0.0f, 1.0e-5f})
         for (const bool appears : {true, false}) {
+            SCOPED_TRACE(appears ? "appears" : "vanishes");
             JumpScene scene({16.0, 8.0, 0.0});
             // The square streaks from or to its parent's origin where the jump counts as a way.
             const vec4 before(appears ? hidden : 1.0f);
@@ -277,18 +290,12 @@ TEST_F(JumpLaw, AppearingOrVanishingEntitiesCoverTheirPlaceForTheirShareOfTheExp
                 AnimationPath::Scale, Interpolation::Step, {0.0f, 1.25f}, {before, after}
             );
             scene.builder.moveCamera({.position = {0, 0, 5}});
-            test::Stage stage(device(), scene.builder);
-            for (const std::string_view method : listMethods())
-                for (const auto phase :
-                     {scene::ShutterPhase::Start,
-                      scene::ShutterPhase::Centre,
-                      scene::ShutterPhase::End})
-                    expectShares(
-                        stage.render(shotOf(method, phase)).color,
-                        {{{16, 8}, appears ? 0.75 : 0.25}},
-                        std::string(method) + (appears ? " appears " : " vanishes ") +
-                            std::to_string(int(phase))
-                    );
+            expectSharesInEachMethod(
+                scene.builder,
+                {{{16, 8}, appears ? 0.75 : 0.25}},
+                {},
+                {std::begin(test::kPhases), std::end(test::kPhases)}
+            );
         }
 }
 
@@ -297,19 +304,14 @@ TEST_F(JumpLaw, AStepAtTheFramesOwnTimeHasNotBeenSeenYet) {
     scene.animate(
         scene.box, AnimationPath::Scale, Interpolation::Step, {0.0f, 2.0f}, {vec4(1.0f), vec4(0.0f)}
     );
-    test::Stage stage(device(), scene.builder);
-    for (const std::string_view method : listMethods()) {
-        SCOPED_TRACE(method);
-        Shot shot = shotOf(method);
-        expectShares(stage.render(shot).color, {{{20, 8}, 1.0}}, "at the end of the exposure");
-        shot.seconds = 3.0;
-        expectShares(stage.render(shot).color, {}, "in the exposure after");
-    }
+    expectSharesInEachMethod(scene.builder, {{{20, 8}, 1.0}}); // at the end of the exposure
+    // In the exposure after.
+    expectSharesInEachMethod(scene.builder, {}, [](Shot& shot) { shot.seconds = 3.0; });
 }
 
 TEST_F(JumpLaw, AJumpingEntityIsNotBlurredBetweenItsPlaces) {
     struct Case {
-        std::string what;
+        const char* what;
         Interpolation interpolation;
         bool loops;
         std::vector<float> times;
@@ -329,6 +331,7 @@ TEST_F(JumpLaw, AJumpingEntityIsNotBlurredBetweenItsPlaces) {
          {0.0f, 0.374f, 0.375f, 1.375f},
          {30, 30, -30, -30}}};
     for (const Case& each : cases) {
+        SCOPED_TRACE(each.what);
         JumpScene scene;
         scene.builder.world.playback.loop = each.loops;
         std::vector<vec4> values;
@@ -337,16 +340,9 @@ TEST_F(JumpLaw, AJumpingEntityIsNotBlurredBetweenItsPlaces) {
         scene.animate(
             scene.box, AnimationPath::Translation, each.interpolation, each.times, values
         );
-        test::Stage stage(device(), scene.builder);
-        for (const std::string_view method : listMethods()) {
-            // The loop is at its second round's jump within the exposure, too.
-            const double share = each.loops ? 0.375 + 0.25 : 0.375;
-            expectShares(
-                stage.render(shotOf(method)).color,
-                {{{-30, 8}, share}, {{30, 8}, 1.0 - share}},
-                each.what + ", " + std::string(method)
-            );
-        }
+        // The loop is at its second round's jump within the exposure, too.
+        const double share = each.loops ? 0.375 + 0.25 : 0.375;
+        expectSharesInEachMethod(scene.builder, {{{-30, 8}, share}, {{30, 8}, 1.0 - share}});
     }
 }
 
@@ -359,14 +355,9 @@ TEST_F(JumpLaw, TheShuttersResponseWeighsThePlaces) {
         {0.0f, 1.25f},
         {vec4(-30, 8, -5, 0), vec4(30, 8, -5, 0)}
     );
-    test::Stage stage(device(), scene.builder);
-    for (const std::string_view method : listMethods()) {
-        Shot shot = shotOf(method);
+    expectSharesInEachMethod(scene.builder, {{{-30, 8}, 0.125}, {{30, 8}, 0.875}}, [](Shot& shot) {
         shot.shutter.response.shape = scene::ResponseShape::Triangle;
-        expectShares(
-            stage.render(shot).color, {{{-30, 8}, 0.125}, {{30, 8}, 0.875}}, std::string(method)
-        );
-    }
+    });
 }
 
 TEST_F(JumpLaw, ACameraThatStepsShowsBothOfItsPictures) {
@@ -378,22 +369,14 @@ TEST_F(JumpLaw, ACameraThatStepsShowsBothOfItsPictures) {
         {0.0f, 1.625f},
         {vec4(0.0f), vec4(40.0f, 0, 0, 0)}
     );
-    test::Stage stage(device(), scene.builder);
-    for (const std::string_view method : listMethods()) {
-        Shot shot = shotOf(method);
+    expectSharesInEachMethod(scene.builder, {{{20, 8}, 0.625}, {{-20, 8}, 0.375}}, [](Shot& shot) {
         shot.shutter.cuts.enabled = false;
-        expectShares(
-            stage.render(shot).color, {{{20, 8}, 0.625}, {{-20, 8}, 0.375}}, std::string(method)
-        );
-    }
+    });
 }
 
 TEST_F(JumpLaw, ShapesThatStepAreTwoShapes) {
-    test::SceneBuilder builder;
-    builder.setPixelView(64);
-    builder.add(
-        test::makeQuad(400, 400, builder.addColor(math::vec3(kWall))), {.position = {0, 0, -9}}
-    );
+    SceneBuilder builder = test::makePixelView(64);
+    test::addCard(builder, {400, 400}, math::vec3(kWall), {.position = {0, 0, -9}});
     scene::Primitive quad = test::makeQuad(12, 12, builder.addColor(math::vec3(kBox)));
     quad.morphTargets.resize(1);
     quad.morphTargets[0].positions.assign(quad.positions.size(), math::vec3(60, 0, 0));
@@ -403,28 +386,17 @@ TEST_F(JumpLaw, ShapesThatStepAreTwoShapes) {
         for (scene::WeightChannel& channel : clip.weightChannels)
             channel.interpolation = Interpolation::Step;
     ASSERT_TRUE(builder.world.registry.has<scene::MorphWeights>(morphed));
-    test::Stage stage(device(), builder);
-    for (const std::string_view method : listMethods())
-        expectShares(
-            stage.render(shotOf(method)).color,
-            {{{-30, 8}, 0.625}, {{30, 8}, 0.375}},
-            std::string(method)
-        );
+    expectSharesInEachMethod(builder, {{{-30, 8}, 0.625}, {{30, 8}, 0.375}});
 }
 
 /// A textured wall before a turning camera, and a mover that jumps in the middle of its way.
-class JumpInMotion : public JumpLaw {
-  protected:
+struct JumpInMotion {
     JumpInMotion() {
-        mScene.setPerspective(0.9);
-        mScene.add(test::makeQuad(9, 7, mScene.addWaves()), {.position = {0, 0, -5}});
-        mMover = mScene.add(
-            test::makeBox({0.8, 0.8, 0.8}, mScene.addWaves()),
+        mover = scene.add(
+            test::makeBox({0.8, 0.8, 0.8}, scene.addWaves()),
             {.position = {0, 0, 0}, .velocity = {4.0, 1.0, 0}}
         );
-        const ecs::Entity parent = mScene.world.registry.create();
-        mScene.world.registry.add(parent, scene::LocalTransform{});
-        mScene.world.registry.add(mMover, scene::Parent{parent});
+        const ecs::Entity parent = test::addParent(scene, mover);
         scene::AnimationClip clip;
         clip.duration = 2.0;
         clip.channels.push_back(
@@ -434,12 +406,12 @@ class JumpInMotion : public JumpLaw {
              {0.0f, float(kSeconds - 0.4 * kExposure), 2.0f},
              {vec4(-5.5f, -1.5f, -3, 0), vec4(-4.0f, -0.5f, -3, 0), vec4(-4.0f, -0.5f, -3, 0)}}
         );
-        mScene.world.assets.clips.push_back(std::move(clip));
-        mScene.world.registry.add(parent, scene::Animated{{{0, 0}}});
-        mScene.moveCamera({.angularVelocity = {0, 0.8, 0}});
+        scene.world.assets.clips.push_back(std::move(clip));
+        scene.world.registry.add(parent, scene::Animated{{{0, 0}}});
+        scene.moveCamera({.angularVelocity = {0, 0.8, 0}});
     }
 
-    [[nodiscard]] static Shot shotOfMotion(std::string_view method) {
+    [[nodiscard]] static Shot shotOf(std::string_view method) {
         return {
             .method = method,
             .width = 192,
@@ -453,28 +425,23 @@ class JumpInMotion : public JumpLaw {
 
     static constexpr double kSeconds = 1.0;
     static constexpr double kExposure = 1.0 / 48.0;
-    test::SceneBuilder mScene;
-    ecs::Entity mMover;
+    SceneBuilder scene = test::makeWavyRoom(5.0, 9.0, 7.0);
+    ecs::Entity mover;
 };
 
-TEST_F(JumpInMotion, AMoverThatJumpsIsBlurredInBothPlaces) {
-    test::Stage stage(device(), mScene);
-    const image::Image truth = stage.render(shotOfMotion("accumulate")).color;
-    const auto nearness = [&](std::string_view method) {
-        return image::computePsnr(stage.render(shotOfMotion(method)).color, truth);
-    };
-    EXPECT_GT(nearness("resolved"), 38.0);
+TEST_F(JumpLaw, AMoverThatJumpsIsBlurredInBothPlacesAndThePictureReportsItsParts) {
+    const JumpInMotion jump;
+    Stage stage(device(), jump.scene);
+    const image::Image truth = stage.render(JumpInMotion::shotOf("accumulate")).color;
+    const auto frame = stage.render(JumpInMotion::shotOf("resolved"));
+    EXPECT_GT(image::computePsnr(frame.color, truth), 38.0);
     for (const std::string_view method : {"gather", "guertin2014", "jimenez2014", "mcguire2012"})
-        EXPECT_GT(nearness(method), 28.0) << method;
-}
-
-TEST_F(JumpInMotion, ThePictureReportsThatItWasDrawnInParts) {
-    test::Stage stage(device(), mScene);
-    const auto frame = stage.render(shotOfMotion("resolved"));
+        EXPECT_GT(image::computePsnr(stage.render(JumpInMotion::shotOf(method)).color, truth), 28.0)
+            << method;
     EXPECT_EQ(frame.statistics.counters.at("exposure parts"), 2u);
     EXPECT_TRUE(render::findDecision(frame.statistics.explanations, "exposure parts") != nullptr);
-    Shot before = shotOfMotion("resolved");
-    before.seconds -= 0.5 * kExposure;
+    Shot before = JumpInMotion::shotOf("resolved");
+    before.seconds -= 0.5 * JumpInMotion::kExposure;
     EXPECT_FALSE(stage.render(before).statistics.counters.contains("exposure parts"));
 }
 

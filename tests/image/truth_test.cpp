@@ -2,10 +2,10 @@
 // The truths: the mean of many instants and distributed rays, each against closed forms, the error
 // estimate of rays, and agreement of both for any motion.
 #include "engine/image/metrics.h"
+#include "tests/image/laws.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
-#include "tests/support/white_quads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +18,17 @@ namespace {
 
 using accumulate::PixelModel;
 using test::SceneBuilder;
+using test::Shot;
 using test::Stage;
 
 class AccumulateLaw : public test::GpuTest {};
 
 SceneBuilder makeTumbling() {
-    SceneBuilder scene;
-    scene.setPerspective(0.9);
-    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
-    scene.add(
-        test::makeBox({0.8, 0.8, 0.8}, scene.addColor({0.9f, 0.2f, 0.1f})),
+    SceneBuilder scene = test::makeWavyRoom(5.0, 6.0, 5.0);
+    test::addBox(
+        scene,
+        {0.8, 0.8, 0.8},
+        {0.9f, 0.2f, 0.1f},
         {.position = {0.1, 0, -2.5},
          .velocity = {0.6, 0.2, 0.3},
          .angularVelocity = {0.3, 2.0, 1.0}}
@@ -50,19 +51,21 @@ TEST_F(AccumulateLaw, MoreInstantsComeNearerToTheMean) {
     EXPECT_GT(with16, 25.0) << "16 instants are already near";
 }
 
-TEST_F(AccumulateLaw, OneInstantIsTheSharpPictureOfTheMiddle) {
-    const SceneBuilder scene = makeTumbling();
-    Stage stage(device(), scene);
-    const auto sharp = stage.render({});
-    const auto one = stage.render({.method = "accumulate", .instants = 1});
-    EXPECT_TRUE(test::sameBits(sharp.color, one.color));
+TEST_F(AccumulateLaw, OneInstantAndAStillFrameByItsOwnInstantsAreTheSharpPicture) {
+    const SceneBuilder moving = makeTumbling();
+    const SceneBuilder still = test::makeWavyRoom();
+    for (const auto& [scene, shot] :
+         {std::pair<const SceneBuilder&, Shot>{moving, {.method = "accumulate", .instants = 1}},
+          {still, {.method = "accumulate", .instants = 1024, .maxStepPx = 1.0}}}) {
+        Stage stage(device(), scene);
+        EXPECT_TRUE(test::sameBits(stage.render({}).color, stage.render(shot).color));
+    }
 }
 
 /// One metre is one pixel.
 uint64_t countInstants(gpu::Device& device, const test::Placement& placement) {
-    SceneBuilder scene;
-    scene.setPixelView(64);
-    scene.add(test::makeQuad(40, 6, scene.addColor({1, 1, 1})), placement);
+    SceneBuilder scene = test::makePixelView(64);
+    test::addCard(scene, {40, 6}, {1, 1, 1}, placement);
     const auto result = test::renderOnce(
         device, scene, {.method = "accumulate", .instants = 1024, .maxStepPx = 1.0}
     );
@@ -81,23 +84,12 @@ TEST_F(AccumulateLaw, InstantsFollowTheLongestWayThoughItEndsWhereItBegan) {
     EXPECT_LE(turning, 128u);
 }
 
-TEST_F(AccumulateLaw, AStillFrameByItsOwnInstantsIsTheSharpPicture) {
-    SceneBuilder scene;
-    scene.setPerspective(0.9);
-    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
-    Stage stage(device(), scene);
-    const auto own = stage.render({.method = "accumulate", .instants = 1024, .maxStepPx = 1.0});
-    EXPECT_TRUE(test::sameBits(stage.render({}).color, own.color));
-}
-
 class TruthLaw : public test::RayTest {};
 
 /// Lit and textured; only a box tumbles, if anything moves.
 SceneBuilder makeScene(bool moves) {
-    SceneBuilder scene;
-    scene.setPerspective(0.9);
+    SceneBuilder scene = test::makeWavyRoom(5.0, 6.0, 5.0);
     scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
-    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
     test::Placement placement{.position = {0.1, 0, -2.5}};
     if (moves) {
         placement.velocity = {0.6, 0.2, 0.3};
@@ -105,10 +97,6 @@ SceneBuilder makeScene(bool moves) {
     }
     scene.add(test::makeBox({0.8, 0.8, 0.8}, scene.addMaterial({})), placement);
     return scene;
-}
-
-double findLargestColor(const image::Image& picture) {
-    return *std::max_element(picture.pixels.begin(), picture.pixels.end());
 }
 
 /// Channels that differ by more than half floats round, 2^-11 of a value.
@@ -127,14 +115,12 @@ TEST_F(TruthLaw, AStillSceneIsTheSharpPicture) {
     EXPECT_EQ(rays.statistics.measures.at("standard error"), 0.0);
     // A silhouette that runs through a pixel's centre may fall to either side.
     EXPECT_LE(countDifferent(sharp.color, rays.color), 12u);
-    EXPECT_GT(findLargestColor(rays.color), 0.3);
+    EXPECT_GT(test::findBrightest(rays.color), 0.3);
 }
 
 TEST_F(TruthLaw, RaysSeeWhatRasterSeesThroughEveryCamera) {
     const auto scaleParent = [](SceneBuilder& scene, const math::dvec3& scale) {
-        const ecs::Entity parent = scene.world.registry.create();
-        scene.world.registry.add(parent, scene::LocalTransform{{{0, 0, 0}, {1, 0, 0, 0}, scale}});
-        scene.world.registry.add(scene.camera, scene::Parent{parent});
+        test::addParent(scene, scene.camera, {.scale = scale});
     };
     const auto magnify = [](SceneBuilder& scene, double x, double y) {
         scene.setPixelView(4);
@@ -167,22 +153,14 @@ TEST_F(TruthLaw, RaysSeeWhatRasterSeesThroughEveryCamera) {
         const auto rays =
             stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 2});
         EXPECT_LE(countDifferent(sharp.color, rays.color), 12u) << name;
-        EXPECT_GT(findLargestColor(sharp.color), 0.3) << name;
+        EXPECT_GT(test::findBrightest(sharp.color), 0.3) << name;
     }
-}
-
-TEST_F(TruthLaw, AQuadAtConstantSpeedIsTheExactTrapezoidInEachPhase) {
-    // An end of the interval of s is met to half a stratum: two ends, 1/512 < 1/255; by rays each
-    // to a stratum of the 256 of each set.
-    test::expectTrapezoidInEachPhase(device(), "accumulate", 512, 1.0 / 255.0);
-    test::expectTrapezoidInEachPhase(device(), "truth", 512, 2.0 / 256.0);
 }
 
 TEST_F(TruthLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
     // Silhouettes at 38.3 and 57.6: the pixels they cross are covered by 0.7 and 0.6.
-    SceneBuilder scene;
-    scene.setPixelView(8);
-    scene.add(test::makeQuad(19.3, 20, scene.addColor({1, 1, 1})), {.position = {-0.05, 0, -10}});
+    SceneBuilder scene = test::makePixelView(8);
+    test::addCard(scene, {19.3, 20}, {1, 1, 1}, {.position = {-0.05, 0, -10}});
     Stage stage(device(), scene);
     // Hammersley's first 256 radical inverses of base 2 are the multiples of 1/256: the count to
     // one side of an edge is right to one. Rays meet it to one of the 128 strata of each set.
@@ -201,12 +179,8 @@ TEST_F(TruthLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
 
 TEST_F(TruthLaw, AnyNumberOfRaysHasTheTrapezoidForItsMean) {
     // Also counts that are no power of two, and one: over 64 rows the errors average out.
-    SceneBuilder scene;
-    scene.setPixelView(64);
-    scene.add(
-        test::makeQuad(16, 100, scene.addColor({1, 1, 1})),
-        {.position = {0, 0, -10}, .velocity = {32, 0, 0}}
-    );
+    SceneBuilder scene = test::makePixelView(64);
+    test::addCard(scene, {16, 100}, {1, 1, 1}, {.position = {0, 0, -10}, .velocity = {32, 0, 0}});
     Stage stage(device(), scene);
     for (const uint32_t rays : {1u, 3u, 5u}) {
         const auto result = stage.render({.method = "truth", .instants = rays, .seed = rays});
@@ -296,28 +270,6 @@ TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessRequested) {
     EXPECT_TRUE(test::hasPass(with, "G-buffer"));
 }
 
-class TruthMotionLaw : public test::RayTest {
-  protected:
-    static void expectAgreement(const SceneBuilder& scene, double mostSharp = 40.0) {
-        Stage stage(device(), scene);
-        test::expectTruthsAgree(
-            stage,
-            {.width = 64,
-             .height = 48,
-             .background = {0.1f, 0.2f, 0.3f},
-             .ambient = math::vec3(0.2f)},
-            mostSharp
-        );
-    }
-};
-
-SceneBuilder makeRoom() {
-    SceneBuilder scene;
-    scene.setPerspective(0.9);
-    scene.add(test::makeQuad(8, 6, scene.addWaves()), {.position = {0, 0, -5}});
-    return scene;
-}
-
 scene::AssetIndex addLit(SceneBuilder& scene) {
     scene::Material material;
     material.baseColorFactor = {0.8f, 0.5f, 0.3f, 1.0f};
@@ -326,145 +278,143 @@ scene::AssetIndex addLit(SceneBuilder& scene) {
     return scene.addMaterial(material);
 }
 
-TEST_F(TruthMotionLaw, ASpinOfMoreThanATurn) {
-    SceneBuilder scene = makeRoom();
-    scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+scene::Primitive makeRedBox(SceneBuilder& scene, const math::dvec3& size) {
+    return test::makeBox(size, scene.addColor({0.9f, 0.2f, 0.1f}));
+}
+
+/// What moves before a wall.
+struct Moving {
+    const char* name;
+    void (*add)(SceneBuilder& scene);
+    double mostSharp = 40.0; ///< dB of the sharp picture
+};
+
+const Moving kMoving[] = {
+    {"a spin of more than a turn",
+     [](SceneBuilder& scene) {
+         scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+         scene.add(
+             test::makeBox({2.2, 0.3, 0.3}, addLit(scene)),
+             {.position = {0, 0, -3}, .angularVelocity = {0.2, 0.5, 9.0}}
+         );
+     }},
+    {"a camera that moves and turns",
+     [](SceneBuilder& scene) {
+         scene.add(makeRedBox(scene, {0.4, 3, 0.4}), {.position = {0.5, 0, -2}});
+         scene.moveCamera({.velocity = {0.2, 0.05, -0.3}, .angularVelocity = {0.02, 0.25, 0.1}});
+     }},
+    {"a moved and spinning child of a spinning parent under a moving camera",
+     [](SceneBuilder& scene) {
+         const ecs::Entity parent = test::addBox(
+             scene,
+             {0.3, 0.3, 0.3},
+             {0.1f, 0.9f, 0.2f},
+             {.position = {0, 0, -3}, .velocity = {0.3, 0, 0}, .angularVelocity = {0, 0, 4}}
+         );
+         const ecs::Entity child = test::addBox(
+             scene,
+             {0.5, 0.2, 0.2},
+             {0.9f, 0.9f, 0.1f},
+             {.position = {0.8, 0, 0}, .angularVelocity = {0, 0, -7}}
+         );
+         scene.world.registry.add(child, scene::Parent{parent});
+         scene.moveCamera({.angularVelocity = {0.0, 0.1, 0.0}});
+     }},
+    {"a mirrored mover, which keeps its sides",
+     [](SceneBuilder& scene) {
+         scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+         scene.add(
+             test::makeBox({0.9, 0.5, 0.5}, addLit(scene)),
+             {.position = {0, 0, -3},
+              .scale = {-1, 1, 1.5},
+              .velocity = {0.8, 0, 0},
+              .angularVelocity = {1, 2, 0}}
+         );
+     }},
+    {"holes of a masked mover",
+     [](SceneBuilder& scene) {
+         scene.add(
+             test::makeQuad(2, 2, scene.addWaves(true)),
+             {.position = {-0.3, 0, -3}, .velocity = {0.7, 0.1, 0}}
+         );
+     }},
+    {"blended surfaces before and behind a mover",
+     [](SceneBuilder& scene) {
+         scene.add(
+             makeRedBox(scene, {0.6, 0.6, 0.6}), {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
+         );
+         scene.add(
+             test::makeQuad(1.5, 1, test::addGlass(scene, {0.1f, 0.3f, 0.9f, 0.4f})),
+             {.position = {0, 0, -2}}
+         );
+         scene.add(
+             test::makeQuad(2, 1, test::addGlass(scene, {0.2f, 0.9f, 0.1f, 0.7f})),
+             {.position = {0, 0.5, -4}, .velocity = {-0.5, 0, 0}}
+         );
+     }},
+    {"the back of a single-sided mover, which is not seen",
+     [](SceneBuilder& scene) {
+         test::addCard(
+             scene,
+             {2, 2},
+             {0.9f, 0.2f, 0.1f},
+             {.position = {0, 0, -3}, .angularVelocity = {0, 6, 0}}
+         );
+     }},
+    {"a light that moves and turns",
+     [](SceneBuilder& scene) {
+         scene.add(test::makeQuad(8, 6, addLit(scene)), {.position = {0, 0, -4.9}});
+         test::addLight(
+             scene,
+             {.kind = scene::LightKind::Spot, .intensity = 12.0f, .outerConeAngle = 0.4f},
+             {.position = {-1.0, 0.0, -3.0},
+              .velocity = {2.0, 0.3, 0.0},
+              .angularVelocity = {0.4, 0.8, 0.0}}
+         );
+     },
+     45.0},
+    {"a mover that is scaled to nothing at the raster instant and is seen before",
+     [](SceneBuilder& scene) {
+         const ecs::Entity box = scene.add(makeRedBox(scene, {1, 1, 1}), {.position = {0, 0, -3}});
+         // From full size at open to nothing from the middle on, which is the raster instant.
+         scene::AnimationChannel channel;
+         channel.path = scene::AnimationPath::Scale;
+         channel.times = {-0.5f, 0.0f};
+         channel.values = {math::vec4(1.0f), math::vec4(0.0f)};
+         scene::AnimationClip clip;
+         clip.name = "shrink";
+         clip.channels = {channel};
+         scene.world.assets.clips.push_back(clip);
+         scene.world.playback.activeClips.assign(1, true);
+         scene.world.registry.add(box, scene::Animated{{{0, 0}}});
+     }}};
+
+TEST_F(TruthLaw, RaysAndInstantsSeeTheSameWhateverMoves) {
+    for (const Moving& moving : kMoving) {
+        SCOPED_TRACE(moving.name);
+        SceneBuilder scene = test::makeWavyRoom();
+        moving.add(scene);
+        Stage stage(device(), scene);
+        test::expectTruthsAgree(
+            stage,
+            {.width = 64,
+             .height = 48,
+             .background = {0.1f, 0.2f, 0.3f},
+             .ambient = math::vec3(0.2f)},
+            moving.mostSharp
+        );
+    }
+}
+
+TEST_F(TruthLaw, TheRaysOfTheRevealPassBlendedSurfaces) {
+    SceneBuilder scene = test::makeWavyRoom();
     scene.add(
-        test::makeBox({2.2, 0.3, 0.3}, addLit(scene)),
-        {.position = {0, 0, -3}, .angularVelocity = {0.2, 0.5, 9.0}}
-    );
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, ACameraThatMovesAndTurns) {
-    SceneBuilder scene = makeRoom();
-    scene.add(
-        test::makeBox({0.4, 3, 0.4}, scene.addColor({0.9f, 0.2f, 0.1f})), {.position = {0.5, 0, -2}}
-    );
-    scene.moveCamera({.velocity = {0.2, 0.05, -0.3}, .angularVelocity = {0.02, 0.25, 0.1}});
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, AMovedAndSpinningChildOfASpinningParentUnderAMovingCamera) {
-    SceneBuilder scene = makeRoom();
-    const ecs::Entity parent = scene.add(
-        test::makeBox({0.3, 0.3, 0.3}, scene.addColor({0.1f, 0.9f, 0.2f})),
-        {.position = {0, 0, -3}, .velocity = {0.3, 0, 0}, .angularVelocity = {0, 0, 4}}
-    );
-    const ecs::Entity child = scene.add(
-        test::makeBox({0.5, 0.2, 0.2}, scene.addColor({0.9f, 0.9f, 0.1f})),
-        {.position = {0.8, 0, 0}, .angularVelocity = {0, 0, -7}}
-    );
-    scene.world.registry.add(child, scene::Parent{parent});
-    scene.moveCamera({.angularVelocity = {0.0, 0.1, 0.0}});
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, AMirroredMoverKeepsItsSides) {
-    SceneBuilder scene = makeRoom();
-    scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
-    scene.add(
-        test::makeBox({0.9, 0.5, 0.5}, addLit(scene)),
-        {.position = {0, 0, -3},
-         .scale = {-1, 1, 1.5},
-         .velocity = {0.8, 0, 0},
-         .angularVelocity = {1, 2, 0}}
-    );
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, HolesOfAMaskedMover) {
-    SceneBuilder scene = makeRoom();
-    scene::Material material;
-    material.unlit = true;
-    material.alphaMode = scene::AlphaMode::Mask;
-    material.baseColor.texture = scene.addWaveTexture(64, true);
-    scene.add(
-        test::makeQuad(2, 2, scene.addMaterial(material)),
-        {.position = {-0.3, 0, -3}, .velocity = {0.7, 0.1, 0}}
-    );
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, BlendedSurfacesBeforeAndBehindAMover) {
-    SceneBuilder scene = makeRoom();
-    const auto addGlass = [&](const math::vec4& color) {
-        scene::Material glass;
-        glass.unlit = true;
-        glass.alphaMode = scene::AlphaMode::Blend;
-        glass.baseColorFactor = color;
-        return scene.addMaterial(glass);
-    };
-    scene.add(
-        test::makeBox({0.6, 0.6, 0.6}, scene.addColor({0.9f, 0.2f, 0.1f})),
-        {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
-    );
-    scene.add(test::makeQuad(1.5, 1, addGlass({0.1f, 0.3f, 0.9f, 0.4f})), {.position = {0, 0, -2}});
-    scene.add(
-        test::makeQuad(2, 1, addGlass({0.2f, 0.9f, 0.1f, 0.7f})),
-        {.position = {0, 0.5, -4}, .velocity = {-0.5, 0, 0}}
-    );
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, TheBackOfASingleSidedMoverIsNotSeen) {
-    SceneBuilder scene = makeRoom();
-    scene.add(
-        test::makeQuad(2, 2, scene.addColor({0.9f, 0.2f, 0.1f})),
-        {.position = {0, 0, -3}, .angularVelocity = {0, 6, 0}}
-    );
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, ALightThatMovesAndTurns) {
-    SceneBuilder scene;
-    scene.setPerspective(0.9);
-    scene.add(test::makeQuad(8, 6, addLit(scene)), {.position = {0, 0, -5}});
-    const ecs::Entity lamp = scene.world.registry.create();
-    scene::Light light;
-    light.kind = scene::LightKind::Spot;
-    light.intensity = 12.0f;
-    light.outerConeAngle = 0.4f;
-    scene.world.registry.add(lamp, light);
-    math::Transform transform;
-    transform.translation = {-1.0, 0.0, -3.0};
-    scene.world.registry.add(lamp, scene::LocalTransform{transform});
-    scene.world.registry.add(lamp, scene::LinearVelocity{{2.0, 0.3, 0.0}});
-    scene.world.registry.add(lamp, scene::AngularVelocity{{0.4, 0.8, 0.0}});
-    expectAgreement(scene, 45.0);
-}
-
-TEST_F(TruthMotionLaw, AMoverThatIsScaledToNothingAtTheRasterInstantIsSeenBefore) {
-    SceneBuilder scene = makeRoom();
-    const ecs::Entity box = scene.add(
-        test::makeBox({1, 1, 1}, scene.addColor({0.9f, 0.2f, 0.1f})), {.position = {0, 0, -3}}
-    );
-    // From full size at open to nothing from the middle on, which is the raster instant.
-    scene::AnimationChannel channel;
-    channel.path = scene::AnimationPath::Scale;
-    channel.times = {-0.5f, 0.0f};
-    channel.values = {math::vec4(1.0f), math::vec4(0.0f)};
-    scene::AnimationClip clip;
-    clip.name = "shrink";
-    clip.channels = {channel};
-    scene.world.assets.clips.push_back(clip);
-    scene.world.playback.activeClips.assign(1, true);
-    scene.world.registry.add(box, scene::Animated{{{0, 0}}});
-    expectAgreement(scene);
-}
-
-TEST_F(TruthMotionLaw, TheRaysOfTheRevealPassBlendedSurfaces) {
-    SceneBuilder scene = makeRoom();
-    scene.add(
-        test::makeBox({0.6, 0.6, 0.6}, scene.addColor({0.9f, 0.2f, 0.1f})),
-        {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
+        makeRedBox(scene, {0.6, 0.6, 0.6}), {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
     );
     const auto without = test::renderOnce(device(), scene, {.method = "hybrid"});
-    scene::Material glass;
-    glass.unlit = true;
-    glass.alphaMode = scene::AlphaMode::Blend;
-    glass.baseColorFactor = {0.5f, 0.5f, 0.5f, 0.0f}; // invisible to raster
-    scene.add(test::makeQuad(6, 5, scene.addMaterial(glass)), {.position = {0, 0, -4}});
+    // Invisible to raster.
+    const scene::AssetIndex glass = test::addGlass(scene, {0.5f, 0.5f, 0.5f, 0.0f});
+    scene.add(test::makeQuad(6, 5, glass), {.position = {0, 0, -4}});
     const auto with = test::renderOnce(device(), scene, {.method = "hybrid"});
     EXPECT_TRUE(test::sameBits(without.color, with.color));
 }
