@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The choice of memory on the layouts of devices that this suite never runs on: types in the order
-// in which the drivers list them (from what people published of vulkaninfo), heaps rounded.
+// Plans of blocks and uploads, and the choice of memory on the layouts of devices that this suite
+// never runs on: types in the order in which the drivers list them (from what people published of
+// vulkaninfo), heaps rounded.
+#include "engine/gpu/memory_blocks.h"
 #include "engine/gpu/memory_type.h"
+#include "engine/gpu/upload.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -33,12 +37,12 @@ struct Layout {
     std::string device;
     std::vector<VkMemoryHeap> heaps;
     std::vector<Type> types;
-    /// The first choices, by index.
-    uint32_t forDevice = 0;
-    uint32_t forStaging = 0;
-    uint32_t forStream = 0;
-    uint32_t forReadback = 0;
+    /// The first choices, by index, as kUses has the uses.
+    std::array<uint32_t, 4> first;
 };
+
+constexpr std::array kUses = {
+    MemoryUse::Device, MemoryUse::Staging, MemoryUse::Stream, MemoryUse::Readback};
 
 constexpr VkMemoryHeap localHeap(VkDeviceSize bytes) {
     return {bytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
@@ -74,10 +78,7 @@ Layout nvidiaWithoutResizableBar() {
          {kVisible, 1},
          {kVisible | kCached, 1},
          {kLocal | kVisible, 2}},
-        7,
-        8,
-        10,
-        9};
+        {7, 8, 10, 9}};
 }
 
 /// NVK lists the window before main memory, which it has of the cached kind alone.
@@ -86,10 +87,7 @@ Layout nvkWithoutResizableBar() {
         "NVK, a window of 256 MiB",
         {localHeap(8 * kGibi), localHeap(256 * kMebi), mainHeap(12 * kGibi)},
         {{kLocal, 0}, {kLocal | kVisible, 1}, {kVisible | kCached, 2}},
-        0,
-        2,
-        1,
-        2};
+        {0, 2, 1, 2}};
 }
 
 std::vector<Layout> layouts() {
@@ -98,17 +96,7 @@ std::vector<Layout> layouts() {
         {"NVIDIA with resizable BAR",
          {localHeap(24 * kGibi), mainHeap(48 * kGibi)},
          {{0, 1}, {kLocal, 0}, {kVisible, 1}, {kVisible | kCached, 1}, {kLocal | kVisible, 0}},
-         1,
-         2,
-         4,
-         3},
-        {"NVIDIA of the data centre",
-         {localHeap(80 * kGibi), mainHeap(1000 * kGibi)},
-         {{0, 1}, {kLocal, 0}, {kVisible, 1}, {kVisible | kCached, 1}, {kLocal | kVisible, 0}},
-         1,
-         2,
-         4,
-         3},
+         {1, 2, 4, 3}},
         nvkWithoutResizableBar(),
         {"RADV, discrete",
          {localHeap(8 * kGibi - 256 * kMebi), mainHeap(8 * kGibi), localHeap(256 * kMebi)},
@@ -120,10 +108,7 @@ std::vector<Layout> layouts() {
           {kVisible | kAmd, 1},
           {kLocal | kVisible | kAmd, 2},
           {kVisible | kCached | kAmd, 1}},
-         0,
-         1,
-         2,
-         3},
+         {0, 1, 2, 3}},
         {"RADV, integrated",
          {mainHeap(kGibi + kGibi / 3), localHeap(3 * kGibi - kGibi / 3)},
          {{kLocal, 1},
@@ -132,32 +117,20 @@ std::vector<Layout> layouts() {
           {kVisible | kCached, 0},
           {kLocal | kAmd, 1},
           {kLocal | kVisible | kAmd, 1}},
-         0,
-         1,
-         2,
-         3},
+         {0, 1, 2, 3}},
         {"ANV, discrete",
          {localHeap(16 * kGibi), mainHeap(24 * kGibi)},
          {{kLocal, 0}, {kVisible | kCached, 1}, {kLocal | kVisible, 0}},
-         0,
-         1,
-         2,
-         1},
+         {0, 1, 2, 1}},
         {"ANV, integrated with a shared cache",
          {localHeap(12 * kGibi)},
          {{kLocal, 0}, {kLocal | kVisible | kCached, 0}},
-         0,
-         1,
-         1,
-         1},
+         {0, 1, 1, 1}},
         {"ANV, integrated without coherent cached memory",
          {localHeap(24 * kGibi)},
          {{kLocal, 0}, {kLocal | kVisible, 0}, {kLocal | kNotCoherent, 0}},
-         0,
-         1,
-         1,
-         2},
-        {"lavapipe", {localHeap(2 * kGibi)}, {{kLocal | kVisible | kCached, 0}}, 0, 0, 0, 0},
+         {0, 1, 1, 2}},
+        {"lavapipe", {localHeap(2 * kGibi)}, {{kLocal | kVisible | kCached, 0}}, {0, 0, 0, 0}},
     };
 }
 
@@ -168,37 +141,27 @@ uint32_t firstChoice(const Layout& layout, MemoryUse use, VkDeviceSize bytes = k
     return types.empty() ? VK_MAX_MEMORY_TYPES : types.front();
 }
 
-TEST(MemoryType, EachUseFindsItsOwnOnEachLayout) {
-    for (const Layout& layout : layouts()) {
-        SCOPED_TRACE(layout.device);
-        EXPECT_EQ(firstChoice(layout, MemoryUse::Device), layout.forDevice);
-        EXPECT_EQ(firstChoice(layout, MemoryUse::Staging), layout.forStaging);
-        EXPECT_EQ(firstChoice(layout, MemoryUse::Stream), layout.forStream);
-        EXPECT_EQ(firstChoice(layout, MemoryUse::Readback), layout.forReadback);
-    }
-}
-
-TEST(MemoryType, MemoryWrittenByTheCpuIsCoherentAndUnconditional) {
+TEST(MemoryType, EachUseFindsItsOwnOnEachLayoutAndTheCpuWritesToCoherentMemoryAlone) {
     for (const Layout& layout : layouts())
-        for (const MemoryUse use :
-             {MemoryUse::Device, MemoryUse::Staging, MemoryUse::Stream, MemoryUse::Readback})
+        for (size_t i = 0; i < kUses.size(); ++i) {
+            SCOPED_TRACE(layout.device);
+            EXPECT_EQ(firstChoice(layout, kUses[i]), layout.first[i]) << "use " << i;
             for (const uint32_t type :
-                 rankMemoryTypes(makeProperties(layout), kAnyType, use, kMebi)) {
+                 rankMemoryTypes(makeProperties(layout), kAnyType, kUses[i], kMebi)) {
                 const VkMemoryPropertyFlags properties = layout.types[type].properties;
-                EXPECT_EQ(properties & kAmd, 0u) << layout.device;
-                const bool isWritten = use == MemoryUse::Staging || use == MemoryUse::Stream;
-                EXPECT_TRUE(!isWritten || (properties & kVisible) == kVisible) << layout.device;
+                EXPECT_EQ(properties & kAmd, 0u);
+                const bool isWritten =
+                    kUses[i] == MemoryUse::Staging || kUses[i] == MemoryUse::Stream;
+                EXPECT_TRUE(!isWritten || (properties & kVisible) == kVisible);
             }
+        }
 }
 
-TEST(MemoryType, AStreamThatWouldFillAQuarterOfTheWindowGoesToMainMemory) {
+TEST(MemoryType, OnlyTypesThatTheResourceAllowsAreNamedAndAStreamLeavesMostOfTheWindow) {
     const Layout nvidia = nvidiaWithoutResizableBar();
     EXPECT_EQ(firstChoice(nvidia, MemoryUse::Stream, 61 * kMebi), 10u);
     EXPECT_EQ(firstChoice(nvidia, MemoryUse::Stream, 62 * kMebi), 8u);
     EXPECT_EQ(firstChoice(nvkWithoutResizableBar(), MemoryUse::Stream, 200 * kMebi), 2u);
-}
-
-TEST(MemoryType, OnlyTypesThatTheResourceAllowsAreNamed) {
     const auto memory = makeProperties(nvidiaWithoutResizableBar());
     EXPECT_EQ(
         rankMemoryTypes(memory, 1u << 9 | 1u << 10, MemoryUse::Staging, kMebi),
@@ -222,20 +185,62 @@ std::pair<TypeAttempt, std::vector<uint32_t>> tryTypes(
     return {attempt, tried};
 }
 
-TEST(MemoryType, TheNextTypeIsTriedWhereTheBestIsFull) {
+TEST(MemoryType, TheNextTypeIsTriedWhereTheBestIsFullAndAnotherErrorEndsTheSearch) {
     const auto streams =
         rankMemoryTypes(makeProperties(nvkWithoutResizableBar()), kAnyType, MemoryUse::Stream, 1);
     const auto [attempt, tried] = tryTypes(streams, {1}, VK_SUCCESS);
     EXPECT_EQ(attempt.result, VK_SUCCESS);
     EXPECT_EQ(attempt.type, 2u);
     EXPECT_EQ(tried, (std::vector<uint32_t>{1, 2}));
+    EXPECT_EQ(tryTypes({3, 5}, {3, 5}, VK_SUCCESS).first.result, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    const auto [ended, triedOnce] = tryTypes({3, 5}, {}, VK_ERROR_TOO_MANY_OBJECTS);
+    EXPECT_EQ(ended.result, VK_ERROR_TOO_MANY_OBJECTS);
+    EXPECT_EQ(triedOnce, std::vector<uint32_t>{3});
 }
 
-TEST(MemoryType, AllFullIsOutOfDeviceMemoryAndAnotherErrorEndsTheSearch) {
-    EXPECT_EQ(tryTypes({3, 5}, {3, 5}, VK_SUCCESS).first.result, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-    const auto [attempt, tried] = tryTypes({3, 5}, {}, VK_ERROR_TOO_MANY_OBJECTS);
-    EXPECT_EQ(attempt.result, VK_ERROR_TOO_MANY_OBJECTS);
-    EXPECT_EQ(tried, std::vector<uint32_t>{3});
+using Place = BlockPlan::Place;
+using Block = BlockPlan::Block;
+
+TEST(MemoryBlocks, ThingsLieOneAfterAnotherAtTheirAlignmentInFewBlocks) {
+    const std::vector<VkMemoryRequirements> needs{{100, 16, 7}, {10, 64, 3}, {1, 1, 7}};
+    const BlockPlan plan = planBlocks(needs);
+    EXPECT_EQ(plan.places, (std::vector<Place>{{0, 0}, {0, 128}, {0, 138}}));
+    EXPECT_EQ(plan.blocks, (std::vector<Block>{{139, 3}}));
+    // Of a scene's pictures of 256 x 256 with their levels.
+    const std::vector<VkMemoryRequirements> textures(5000, {350000, 65536, 1});
+    EXPECT_LT(planBlocks(textures).blocks.size(), 20u);
+    EXPECT_TRUE(planBlocks({}).blocks.empty());
+}
+
+TEST(MemoryBlocks, AFullBlockAndAnotherKindOfMemoryStartAnother) {
+    const std::vector<VkMemoryRequirements> needs{
+        {kBlockBytes - 1, 1, 1},
+        {1, 1, 1},
+        {1, 1, 1},
+        {5, 1, 2},
+        {2 * kBlockBytes, 1, 2},
+        {1, 1, 2}};
+    const BlockPlan plan = planBlocks(needs);
+    EXPECT_EQ(
+        plan.places,
+        (std::vector<Place>{{0, 0}, {0, kBlockBytes - 1}, {1, 0}, {2, 0}, {3, 0}, {4, 0}})
+    );
+    EXPECT_EQ(plan.blocks[3], (Block{2 * kBlockBytes, 2})) << "a larger item has a separate block";
+}
+
+TEST(UploadParts, TransfersAreCutIntoPartsOfWholeRowsAndNoByteIsLost) {
+    EXPECT_EQ(splitUpload(0, 1), std::vector<UploadPart>{});
+    EXPECT_EQ(splitUpload(7, 1), (std::vector<UploadPart>{{0, 7}}));
+    EXPECT_EQ(splitUpload(kStagingBytes, 4), (std::vector<UploadPart>{{0, kStagingBytes}}));
+    EXPECT_EQ(
+        splitUpload(2 * kStagingBytes + 5, 1),
+        (std::vector<UploadPart>{
+            {0, kStagingBytes}, {kStagingBytes, kStagingBytes}, {2 * kStagingBytes, 5}})
+    );
+    constexpr VkDeviceSize kRow = 3 * kStagingBytes / 4;
+    EXPECT_EQ(splitUpload(2 * kRow, kRow), (std::vector<UploadPart>{{0, kRow}, {kRow, kRow}}));
+    constexpr VkDeviceSize kLong = 2 * kStagingBytes;
+    EXPECT_EQ(splitUpload(kLong, kLong), (std::vector<UploadPart>{{0, kLong}}));
 }
 
 } // namespace

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+// Pipelines that are kept, their keys, and what a driver is given of the cache of an earlier run.
 #include "engine/gpu/kept_pipelines.h"
+#include "engine/gpu/pipeline_cache.h"
 #include "engine/gpu/pipeline_key.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <set>
 #include <string>
@@ -24,36 +29,25 @@ PipelineObjects makeObjects(uintptr_t value) {
         makeHandle<VkDescriptorSetLayout>(value + 2)};
 }
 
-TEST(KeptPipelines, ACachedPipelineIsReturnedOnce) {
+TEST(KeptPipelines, AWholePipelineIsReturnedOnceAndTheOldestLeavesWhereThereIsNoRoom) {
     KeptPipelines kept(2);
     EXPECT_EQ(kept.take("a"), std::nullopt);
     EXPECT_EQ(kept.keep("a", makeObjects(16)), std::nullopt);
     EXPECT_EQ(kept.take("b"), std::nullopt);
     EXPECT_EQ(kept.take("a"), makeObjects(16));
     EXPECT_EQ(kept.take("a"), std::nullopt);
-}
-
-TEST(KeptPipelines, TheOldestLeavesWhereThereIsNoRoom) {
-    KeptPipelines kept(2);
     EXPECT_EQ(kept.keep("a", makeObjects(16)), std::nullopt);
     EXPECT_EQ(kept.keep("b", makeObjects(32)), std::nullopt);
     EXPECT_EQ(kept.keep("a", makeObjects(48)), makeObjects(16));
     EXPECT_EQ(kept.takeAll(), (std::vector{makeObjects(32), makeObjects(48)}));
     EXPECT_EQ(kept.takeAll(), std::vector<PipelineObjects>());
-}
-
-TEST(KeptPipelines, ACacheWithoutRoomStoresNothing) {
-    KeptPipelines kept(0);
-    EXPECT_EQ(kept.keep("a", makeObjects(16)), makeObjects(16));
-    EXPECT_EQ(kept.take("a"), std::nullopt);
-}
-
-TEST(KeptPipelines, APartlyCreatedPipelineIsNotCached) {
-    KeptPipelines kept(1);
-    PipelineObjects half = makeObjects(16);
+    PipelineObjects half = makeObjects(16); // made in part
     half.pipeline = VK_NULL_HANDLE;
     EXPECT_EQ(kept.keep("a", half), half);
     EXPECT_EQ(kept.take("a"), std::nullopt);
+    KeptPipelines none(0);
+    EXPECT_EQ(none.keep("a", makeObjects(16)), makeObjects(16));
+    EXPECT_EQ(none.take("a"), std::nullopt);
 }
 
 const std::vector<uint32_t> kShader{1, 2, 3};
@@ -79,9 +73,7 @@ template <typename Desc> std::vector<std::function<void(Desc&)>> listSharedChang
         [](Desc& desc) { desc.interface.pushConstantBytes = 8; },
         [](Desc& desc) { desc.interface.sceneLayout = makeHandle<VkDescriptorSetLayout>(64); },
         [](Desc& desc) { desc.specialization = {5}; },
-        [](Desc& desc) {
-            desc.specialization = {5, 0};
-        }};
+        [](Desc& desc) { desc.specialization.assign(2, 5); }};
 }
 
 template <typename Desc> Desc makePlain() {
@@ -99,6 +91,7 @@ TEST(PipelineKey, EachPartOfAComputePipelineCounts) {
     plain.spirv = kShader;
     auto changes = listSharedChanges<Desc>();
     changes.emplace_back([](Desc& desc) { desc.spirv = kOtherShader; });
+    changes.emplace_back([](Desc& desc) { desc.subgroupSize = 16; });
     expectOwnKeys(plain, changes);
 }
 
@@ -117,6 +110,7 @@ TEST(PipelineKey, EachPartOfAGraphicsPipelineCounts) {
     changes.emplace_back([](Desc& desc) { desc.depthCompare = VK_COMPARE_OP_EQUAL; });
     changes.emplace_back([](Desc& desc) { desc.depthWrite = false; });
     changes.emplace_back([](Desc& desc) { desc.blend = gpu::Blend::Over; });
+    changes.emplace_back([](Desc& desc) { desc.samples = 4; });
     expectOwnKeys(plain, changes);
 }
 
@@ -135,16 +129,80 @@ TEST(PipelineKey, EachPartOfARayPipelineCounts) {
 }
 
 TEST(PipelineKey, PartsOfListsDoNotRunIntoEachOther) {
-    ComputePipelineDesc one;
-    one.name = "ab";
-    ComputePipelineDesc other;
-    other.name = "a";
-    EXPECT_NE(makePipelineKey(one), makePipelineKey(other));
     GraphicsPipelineDesc early;
     early.vertexSpirv = kShader;
     GraphicsPipelineDesc late;
     late.fragmentSpirv = kShader;
     EXPECT_NE(makePipelineKey(early), makePipelineKey(late));
+}
+
+namespace fs = std::filesystem;
+
+constexpr PipelineCacheOwner kOwner{
+    .vendorId = 0x10005, .deviceId = 7, .uuid = {1, 2, 3, 4, 5, 6, 7, 8, 9}};
+
+std::vector<uint8_t> makeBlob(const PipelineCacheOwner& owner = kOwner) {
+    VkPipelineCacheHeaderVersionOne header{};
+    header.headerSize = sizeof(header);
+    header.headerVersion = VK_PIPELINE_CACHE_HEADER_VERSION_ONE;
+    header.vendorID = owner.vendorId;
+    header.deviceID = owner.deviceId;
+    std::copy(owner.uuid.begin(), owner.uuid.end(), header.pipelineCacheUUID);
+    std::vector<uint8_t> blob(sizeof(header) + 100, 42);
+    std::memcpy(blob.data(), &header, sizeof(header));
+    return blob;
+}
+
+TEST(PipelineCacheFile, PackedBytesAreUnpackedUnchangedAndNotIfAnyIsChanged) {
+    const std::vector<uint8_t> blob = makeBlob();
+    const std::vector<uint8_t> file = packPipelineCache(blob);
+    const auto unpacked = unpackPipelineCache(file, kOwner);
+    ASSERT_TRUE(unpacked && unpacked.value());
+    EXPECT_TRUE(std::equal(blob.begin(), blob.end(), unpacked.value()->begin()));
+    EXPECT_EQ(unpacked.value()->size(), blob.size());
+    for (size_t i = 0; i < file.size(); ++i) {
+        std::vector<uint8_t> damaged = file;
+        damaged[i] ^= 0x10;
+        const auto changed = unpackPipelineCache(damaged, kOwner);
+        EXPECT_FALSE(changed && changed.value()) << i;
+        const auto cut = unpackPipelineCache(std::span(file).first(i), kOwner);
+        EXPECT_FALSE(cut && cut.value()) << i;
+    }
+}
+
+TEST(PipelineCacheFile, AnotherDriversCacheIsIgnoredWithoutAnError) {
+    PipelineCacheOwner other = kOwner;
+    other.uuid[3] = 0;
+    const std::vector<uint8_t> file = packPipelineCache(makeBlob(other));
+    const auto unpacked = unpackPipelineCache(file, kOwner);
+    ASSERT_TRUE(unpacked);
+    EXPECT_FALSE(unpacked.value());
+    std::vector<uint8_t> unversioned = makeBlob();
+    unversioned[5] = 0x30; // no value of the header's enum
+    const std::vector<uint8_t> packed = packPipelineCache(unversioned);
+    EXPECT_FALSE(unpackPipelineCache(packed, kOwner).value());
+    const auto bare = unpackPipelineCache(makeBlob(), kOwner); // of a driver, without our header
+    ASSERT_TRUE(bare);
+    EXPECT_FALSE(bare.value());
+}
+
+TEST(PipelineCacheFile, TheCacheIsReadFromFilesUpToALimit) {
+    const test::TempFolder folder;
+    const std::vector<uint8_t> file = packPipelineCache(makeBlob());
+    const fs::path path =
+        folder.write("cache.bin", {reinterpret_cast<const char*>(file.data()), file.size()});
+    EXPECT_EQ(readPipelineCache(path, kOwner), makeBlob());
+    EXPECT_TRUE(readPipelineCache(folder.path(), kOwner).empty());
+    EXPECT_TRUE(readPipelineCache(folder.path() / "missing", kOwner).empty());
+    EXPECT_TRUE(readPipelineCache("", kOwner).empty());
+    testing::internal::CaptureStderr();
+    fs::resize_file(path, file.size() - 1);
+    EXPECT_TRUE(readPipelineCache(path, kOwner).empty());
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("cache.bin"), std::string::npos);
+    testing::internal::CaptureStderr();
+    fs::resize_file(path, kMaxPipelineCacheBytes + 1); // sparse
+    EXPECT_TRUE(readPipelineCache(path, kOwner).empty());
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("above the limit"), std::string::npos);
 }
 
 } // namespace
