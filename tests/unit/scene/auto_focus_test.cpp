@@ -5,12 +5,11 @@
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/path.h"
-#include "engine/scene/recorded_motion.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace shutter::scene {
@@ -41,11 +40,19 @@ class AutoFocusing : public testing::Test {
         mWorld.registry.add(mTarget, PathMotion{std::move(keys), PathInterpolation::Linear});
     }
 
+    void moveAway() { move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}}); }
+
+    /// Begins at time 0 as if nothing had been focused on.
+    void restart() {
+        mWorld.registry.remove<FocusTrail>(mCamera);
+        advanceAutoFocus(mWorld, 0.0);
+    }
+
     [[nodiscard]] double at(double seconds) const {
         return lensAt(mWorld, mCamera, seconds).focusDistance;
     }
 
-    void advance(double from, double to, double fps) {
+    void advance(double from, double to, double fps = 60.0) {
         for (int i = 0; from + i / fps <= to + 1e-9; ++i)
             advanceAutoFocus(mWorld, from + i / fps);
     }
@@ -60,21 +67,24 @@ TEST_F(AutoFocusing, HalfOfTheWayOfTheInverseIsGoneInAHalfLife) {
     advanceAutoFocus(mWorld, 0.0);
     EXPECT_EQ(at(0.0), 4.0) << "it begins in focus";
     put({3, -2, -1}); // the distance is that along the axis
-    advance(0.0, 10 * kHalfLife, 60.0);
+    advance(0.0, 10 * kHalfLife);
     for (int i = 0; i <= 10; ++i)
         EXPECT_NEAR(1.0 / at(i * kHalfLife), 1.0 - 0.75 * std::exp2(-i), 1e-12) << i;
     mWorld.registry.get<AutoFocus>(mCamera).halfLife = 0.0;
     put({0, 0, -2});
     advanceAutoFocus(mWorld, 10 * kHalfLife + 1.0 / kFocusStepsPerSecond);
     EXPECT_EQ(at(100.0), 2.0) << "at once, and after the last step it stays";
+    mWorld.registry.add(mCamera, FocusMotion{{{0.0, 1.5, {}, false}}});
+    EXPECT_EQ(at(0.0), 1.5) << "keys go before it";
+    mWorld.registry.add(mCamera, LensOverride{.focusDistance = 2.5});
+    EXPECT_EQ(at(0.0), 2.5) << "and a viewer before all";
 }
 
 TEST_F(AutoFocusing, FramesOfAnyRateSeeTheSameLensToTheBit) {
-    move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}});
+    moveAway();
     std::vector<double> seen;
     for (const double fps : {24.0, 30.0, 60.0, 144.0, 7.0}) {
-        mWorld.registry.remove<FocusTrail>(mCamera);
-        advanceAutoFocus(mWorld, 0.0);
+        restart();
         advance(0.0, 2.0, fps);
         advanceAutoFocus(mWorld, 2.0);
         std::vector<double> lenses;
@@ -108,7 +118,7 @@ TEST_F(AutoFocusing, AReplayedFrameDoesNotDependOnTheFramesBeforeIt) {
 }
 
 TEST_F(AutoFocusing, AReplayReachesAsFarAsScalesOfTheBlurDo) {
-    move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}});
+    moveAway();
     CameraShutter shutter;
     shutter.mode = ShutterMode::Physical;
     shutter.exposureSeconds = 0.2;
@@ -126,7 +136,7 @@ TEST_F(AutoFocusing, AReplayReachesAsFarAsScalesOfTheBlurDo) {
 }
 
 TEST_F(AutoFocusing, AReplayBeginsAnewWhereTheAutofocusIsAnother) {
-    move({{0.0, {0, 0, -2}}, {1.0, {1, 0, -9}}, {2.0, {0, 0, -1}}});
+    moveAway();
     const ecs::Entity other = mWorld.registry.create();
     mWorld.registry.add(other, LocalTransform{{.translation = {0, 0, -3}}});
     for (const AutoFocus& changed : {AutoFocus{mTarget, 0.0}, AutoFocus{other, kHalfLife}}) {
@@ -141,29 +151,33 @@ TEST_F(AutoFocusing, AReplayBeginsAnewWhereTheAutofocusIsAnother) {
     }
 }
 
-TEST_F(AutoFocusing, WhatIsNotValidDoesNotStay) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const double bad : {nan, -1.0}) {
+TEST_F(AutoFocusing, WhatIsNotValidIsRefusedAndDoesNotStay) {
+    EXPECT_TRUE(validateAutoFocus({}).ok());
+    for (const double bad : {-1.0, 1001.0, kNan}) {
+        const core::Status valid = validateAutoFocus({mTarget, bad});
+        ASSERT_FALSE(valid.ok()) << bad;
+        EXPECT_NE(valid.error().message.find("halfLife"), std::string::npos);
+    }
+    for (const double bad : {kNan, -1.0}) {
         mWorld.registry.get<AutoFocus>(mCamera).halfLife = kHalfLife;
-        mWorld.registry.remove<FocusTrail>(mCamera);
-        advanceAutoFocus(mWorld, 0.0);
+        restart();
         mWorld.registry.get<AutoFocus>(mCamera).halfLife = bad;
-        advance(0.0, 1.0, 60.0);
+        advance(0.0, 1.0);
         EXPECT_EQ(at(1.0), 4.0) << bad;
         mWorld.registry.get<AutoFocus>(mCamera).halfLife = kHalfLife;
         put({0, 0, -2});
-        advance(1.0, 9.0, 60.0);
+        advance(1.0, 9.0);
         EXPECT_NEAR(at(9.0), 2.0, 1e-9) << bad;
         put({0, 0, -4});
     }
-    for (const double bad : {0.0, nan, -1.0}) {
+    for (const double bad : {0.0, kNan, -1.0}) {
         mWorld.registry.remove<FocusTrail>(mCamera);
         mWorld.registry.get<CameraLens>(mCamera).focusDistance = bad;
         put({0, 0, 1});
         advanceAutoFocus(mWorld, 0.0);
         EXPECT_EQ(at(0.0), CameraLens{}.focusDistance) << bad;
         put({0, 0, -4});
-        advance(0.0, 9.0, 60.0);
+        advance(0.0, 9.0);
         EXPECT_NEAR(at(9.0), 4.0, 1e-9) << bad;
     }
 }
@@ -172,38 +186,35 @@ TEST_F(AutoFocusing, ATargetBehindTheCameraOrBeforeTheNearPlaneLeavesTheDistance
     advanceAutoFocus(mWorld, 0.0);
     for (const double z : {3.0, 0.0, -0.999 * kNear}) {
         put({0, 0, z});
-        advance(0.0, 1.0, 60.0);
+        advance(0.0, 1.0);
         EXPECT_EQ(at(1.0), 4.0) << z;
-        mWorld.registry.remove<FocusTrail>(mCamera);
-        advanceAutoFocus(mWorld, 0.0);
+        restart();
         EXPECT_EQ(at(0.0), kOwn) << "there was no distance before";
         put({0, 0, -4});
-        mWorld.registry.remove<FocusTrail>(mCamera);
-        advanceAutoFocus(mWorld, 0.0);
+        restart();
     }
     put({0, 0, -kNear});
-    advance(0.0, 20.0, 60.0);
+    advance(0.0, 20.0);
     EXPECT_NEAR(at(20.0), kNear, 1e-9) << "on the near plane it is seen";
 }
 
 TEST_F(AutoFocusing, ATargetThatIsDestroyedOrNowhereLeavesTheDistance) {
     advanceAutoFocus(mWorld, 0.0);
-    for (const double bad :
-         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad : {kNan, kInfinity}) {
         put({0, 0, -bad});
-        advance(0.0, 0.5, 60.0);
+        advance(0.0, 0.5);
         EXPECT_EQ(at(0.5), 4.0) << bad;
     }
     put({0, 0, -4});
     despawn(mWorld, mTarget);
-    advance(0.5, 1.0, 60.0);
+    advance(0.5, 1.0);
     EXPECT_EQ(at(1.0), 4.0);
     const ecs::Entity other = mWorld.registry.create(); // in the slot of the dead one
     mWorld.registry.add(other, LocalTransform{{.translation = {0, 0, -1}}});
-    advance(1.0, 2.0, 60.0);
+    advance(1.0, 2.0);
     EXPECT_EQ(at(2.0), 4.0) << "another entity is no target";
     mWorld.registry.get<AutoFocus>(mCamera).target = ecs::kNullEntity;
-    advance(2.0, 3.0, 60.0);
+    advance(2.0, 3.0);
     EXPECT_EQ(at(3.0), 4.0);
 }
 
@@ -212,7 +223,7 @@ TEST_F(AutoFocusing, FarAwayAndVeryNearStayValid) {
     for (const double distance : {1.0e12, 1.0e-5}) {
         mWorld.registry.remove<FocusTrail>(mCamera);
         put({0, 0, -distance});
-        advance(0.0, 1.0, 60.0);
+        advance(0.0, 1.0);
         EXPECT_TRUE(validate(lensAt(mWorld, mCamera, 1.0)).ok()) << distance;
         EXPECT_NEAR(at(1.0), distance > 1.0 ? kFarthestFocus : kNearestFocus, 1e-6);
     }
@@ -220,7 +231,7 @@ TEST_F(AutoFocusing, FarAwayAndVeryNearStayValid) {
 
 TEST_F(AutoFocusing, ATargetThatCrossesTheCameraAndComesBackIsEasedTo) {
     move({{0.0, {0, 0, -2}}, {1.0, {0, 0, 2}}, {2.0, {0, 0, -2}}});
-    advance(0.0, 6.0, 60.0);
+    advance(0.0, 6.0);
     double last = at(0.0);
     double nearest = last;
     for (double seconds = 0.0; seconds <= 6.0; seconds += 1.0 / 480.0) {
@@ -237,20 +248,20 @@ TEST_F(AutoFocusing, ATargetThatCrossesTheCameraAndComesBackIsEasedTo) {
 }
 
 TEST_F(AutoFocusing, ACutJumpsAtItsTimeAlsoWithinAStepAndAnnouncedLate) {
-    advance(0.0, 1.0, 60.0);
+    advance(0.0, 1.0);
     put({0, 0, -2});
     const double cutAt = 1.0 + 0.3 / kFocusStepsPerSecond;
     cut(mWorld, mCamera, cutAt);
-    advance(1.0, 1.1, 60.0);
+    advance(1.0, 1.1);
     EXPECT_EQ(at(cutAt - 1e-6), 4.0);
     EXPECT_EQ(at(cutAt), 2.0);
     EXPECT_EQ(at(1.1), 2.0);
     // During easing, announced after the step was taken.
     put({0, 0, -8});
-    advance(1.1, 1.2, 60.0);
+    advance(1.1, 1.2);
     EXPECT_LT(at(1.2), 7.0);
     cut(mWorld, mCamera, 1.2 - 1e-4);
-    advance(1.2, 1.25, 60.0);
+    advance(1.2, 1.25);
     EXPECT_EQ(at(1.25), 8.0);
     PathMotion path{
         {{0.0, {0, 0, 0}}, {1.5, {0, 0, 5}}, {1.503, {0, 0, 0}}}, PathInterpolation::Linear};
@@ -261,14 +272,6 @@ TEST_F(AutoFocusing, ACutJumpsAtItsTimeAlsoWithinAStepAndAnnouncedLate) {
     replayAutoFocus(mWorld, 2.0);
     EXPECT_EQ(at(1.503), 8.0);
     EXPECT_GT(at(1.503 - 1e-6), 11.0) << "it held until the cut";
-}
-
-TEST_F(AutoFocusing, KeysGoBeforeItAndAViewerBeforeAll) {
-    advanceAutoFocus(mWorld, 0.0);
-    mWorld.registry.add(mCamera, FocusMotion{{{0.0, 1.5, {}, false}}});
-    EXPECT_EQ(at(0.0), 1.5);
-    mWorld.registry.add(mCamera, LensOverride{.focusDistance = 2.5});
-    EXPECT_EQ(at(0.0), 2.5);
 }
 
 TEST_F(AutoFocusing, ItCostsNoMemoryThatGrowsAndGoesOnAfterAPause) {
@@ -284,15 +287,6 @@ TEST_F(AutoFocusing, ItCostsNoMemoryThatGrowsAndGoesOnAfterAPause) {
     mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
     advanceAutoFocus(mWorld, 2.0);
     EXPECT_EQ(lensAt(mWorld, mCamera, 2.0).fStop, 0.0);
-}
-
-TEST_F(AutoFocusing, ABadHalfLifeIsRefused) {
-    for (const double bad : {-1.0, 1001.0, std::numeric_limits<double>::quiet_NaN()}) {
-        const core::Status valid = validateAutoFocus({mTarget, bad});
-        ASSERT_FALSE(valid.ok()) << bad;
-        EXPECT_NE(valid.error().message.find("halfLife"), std::string::npos);
-    }
-    EXPECT_TRUE(validateAutoFocus({}).ok());
 }
 
 } // namespace

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The lens: the shape of its opening, its effect on points, its keys, and refusals.
+// The lens: the shape of its opening, its effect on points, its focus, its zoom, and refusals.
+#include "engine/scene/camera.h"
+#include "engine/scene/exposure_motion.h"
 #include "engine/scene/lens.h"
+#include "engine/scene/path.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,8 +22,6 @@ using math::dvec2;
 using shader::Aperture;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How far the opening reaches in a direction.
 double findReach(const Aperture& aperture, double angle) {
@@ -134,10 +136,10 @@ TEST(ThinLens, EachFieldIsGuarded) {
         refuses("blades", {.blades = blades});
 }
 
-class Focus : public testing::Test {
+class Lens : public testing::Test {
   protected:
-    Focus() : mCamera(mWorld.registry.create()) {
-        mWorld.registry.add(mCamera, Camera{});
+    Lens() : mCamera(mWorld.registry.create()) {
+        mWorld.registry.add(mCamera, Camera{.yFov = 0.7});
         mWorld.registry.add(mCamera, CameraLens{.fStop = 2.0, .focusDistance = 7.0});
     }
 
@@ -147,13 +149,29 @@ class Focus : public testing::Test {
         mWorld.registry.add(mCamera, motion);
     }
 
+    void zoom(
+        std::vector<LensKey> keys,
+        PathInterpolation interpolation = PathInterpolation::CatmullRom,
+        PathEase ease = PathEase::None
+    ) {
+        const LensMotion lens{std::move(keys), interpolation, ease};
+        ASSERT_TRUE(validateLens(lens).ok());
+        mWorld.registry.add(mCamera, lens);
+    }
+
     [[nodiscard]] CameraLens at(double seconds) const { return lensAt(mWorld, mCamera, seconds); }
+
+    [[nodiscard]] double viewAt(double seconds) const { return yFovAt(mWorld, mCamera, seconds); }
+
+    [[nodiscard]] ExposureMotion expose(double exposureSeconds, double raster) const {
+        return {mWorld, mCamera, computeExposure({exposureSeconds}, raster)};
+    }
 
     World mWorld;
     ecs::Entity mCamera;
 };
 
-TEST_F(Focus, DistancesAreInterpolatedAsInversesAndFNumbersAsLogarithms) {
+TEST_F(Lens, DistancesAreInterpolatedAsInversesAndFNumbersAsLogarithms) {
     pull({{0.0, 1.0, 2.0, false}, {1.0, 3.0, 8.0, false}}, PathInterpolation::Linear);
     EXPECT_NEAR(at(0.5).focusDistance, 1.5, 1e-12);
     EXPECT_NEAR(at(0.5).fStop, 4.0, 1e-12);
@@ -162,17 +180,14 @@ TEST_F(Focus, DistancesAreInterpolatedAsInversesAndFNumbersAsLogarithms) {
         EXPECT_EQ(at(seconds).fStop, 2.0);
     }
     EXPECT_NEAR(at(9.0).focusDistance, 3.0, 1e-12);
-}
-
-TEST_F(Focus, FieldsMissingInKeysAreTheLenses) {
     pull({{0.0, 1.0, {}, false}}, PathInterpolation::Linear);
-    EXPECT_EQ(at(0.0).fStop, 2.0);
+    EXPECT_EQ(at(0.0).fStop, 2.0) << "what keys lack is the lens's";
     EXPECT_EQ(at(0.0).focusDistance, 1.0);
     mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
     EXPECT_EQ(at(0.0).fStop, 0.0) << "it has no focal length";
 }
 
-TEST_F(Focus, ACutJumpsAndACurveStaysThisSideOfInfinity) {
+TEST_F(Lens, TheFocusJumpsAtACutAndStaysThisSideOfInfinity) {
     pull(
         {{0.0, 1.0, {}, false}, {1.0, 3.0, {}, true}, {2.0, 3.0, {}, false}},
         PathInterpolation::CatmullRom
@@ -189,7 +204,7 @@ TEST_F(Focus, ACutJumpsAndACurveStaysThisSideOfInfinity) {
     }
 }
 
-TEST_F(Focus, AViewerReplacesWhatHeNamesAndScalesTheRest) {
+TEST_F(Lens, AViewerReplacesWhatHeNamesAndScalesTheRest) {
     pull({{0.0, 1.0, 4.0, false}, {1.0, 3.0, 4.0, false}}, PathInterpolation::Linear);
     mWorld.registry.add(mCamera, LensOverride{});
     EXPECT_EQ(at(0.0).focusDistance, 1.0);
@@ -220,17 +235,130 @@ TEST_F(Focus, AViewerReplacesWhatHeNamesAndScalesTheRest) {
         EXPECT_FALSE(validate(bad).ok());
 }
 
-TEST_F(Focus, BadKeysAreRefused) {
-    const auto refuses = [](std::vector<FocusKey> keys) {
-        EXPECT_FALSE(validateFocus({std::move(keys)}).ok());
+TEST(LensKeys, BadKeysOfZoomAndFocusAreRefusedByName) {
+    const auto expectRefused = [](const core::Status& valid, const char* sentence) {
+        ASSERT_FALSE(valid.ok()) << sentence;
+        EXPECT_NE(valid.error().message.find(sentence), std::string::npos) << valid.error().message;
     };
-    refuses({});
-    refuses({{kNan, 1.0, {}, false}});
-    refuses({{1.0, 1.0, {}, false}, {1.0, 1.0, {}, false}});
-    refuses({{1.0, 1.0, {}, false}, {2.0, {}, 1.0, false}});
+    EXPECT_TRUE(validateLens({{{0.0, 0.5}}}).ok());
+    expectRefused(validateLens({}), "no keys");
+    expectRefused(validateLens({{{kNan, 0.5}}}), "time of key 0");
+    expectRefused(validateLens({{{1.0, 0.5}, {1.0, 0.6}}}), "key 1 at 1 s");
+    for (const double bad : {0.0, -1.0, kPi, kNan})
+        expectRefused(validateLens({{{1.0, bad}}}), "field of view of key 0");
+    const FocusKey good{1.0, 1.0, {}, false};
+    expectRefused(validateFocus({}), "no keys");
+    expectRefused(validateFocus({{{kNan, 1.0, {}, false}}}), "time of key 0");
+    expectRefused(validateFocus({{good, good}}), "key 1 at 1 s");
+    expectRefused(validateFocus({{good, {2.0, {}, 1.0, false}}}), "key 1 has other fields");
     for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
-        refuses({{0.0, bad, {}, false}});
-        refuses({{0.0, {}, bad, false}});
+        expectRefused(validateFocus({{{0.0, bad, {}, false}}}), "key 0");
+        expectRefused(validateFocus({{{0.0, {}, bad, false}}}), "key 0");
+    }
+}
+
+double focal(double yFov) {
+    return 1.0 / std::tan(yFov / 2.0);
+}
+
+TEST_F(Lens, ALensPassesItsKeysAndHoldsStillBetweenEqualOnesToTheBit) {
+    for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom}) {
+        zoom({{0.0, 0.9}, {1.0, 0.4}, {3.0, 0.4}, {4.0, 1.2}}, interpolation);
+        EXPECT_TRUE(mayZoom(mWorld, mCamera));
+        EXPECT_EQ(viewAt(-1.0), 0.9);
+        EXPECT_EQ(viewAt(0.0), 0.9);
+        EXPECT_NE(viewAt(0.9), viewAt(1.0));
+        EXPECT_NEAR(viewAt(1.0), 0.4, 1e-15);
+        for (double t = 1.0; t <= 3.0; t += 0.125)
+            EXPECT_EQ(viewAt(t), viewAt(1.0)) << t;
+        EXPECT_EQ(viewAt(4.0), 1.2);
+        EXPECT_EQ(viewAt(9.0), 1.2);
+    }
+    zoom({{0.0, 0.123}, {1.0, 0.123}, {2.0, 0.123}});
+    EXPECT_FALSE(mayZoom(mWorld, mCamera));
+    for (double t = -0.5; t < 2.5; t += 0.0173)
+        ASSERT_EQ(viewAt(t), 0.123);
+    zoom({{0.0, 0.9}, {4.0, 0.3}});
+    mWorld.registry.get<Camera>(mCamera).kind = CameraKind::Orthographic;
+    EXPECT_FALSE(mayZoom(mWorld, mCamera)) << "it has no lens";
+    EXPECT_EQ(viewAt(2.0), 0.7);
+}
+
+TEST_F(Lens, AStraightZoomMultipliesTheFocalLengthEvenlyOrEasesLikeAPath) {
+    zoom({{0.0, 1.0}, {2.0, 0.3}}, PathInterpolation::Linear);
+    const double ratio = focal(viewAt(0.5)) / focal(viewAt(0.0));
+    EXPECT_GT(ratio, 1.0);
+    for (const double t : {0.5, 1.0, 1.5})
+        EXPECT_NEAR(focal(viewAt(t + 0.5)) / focal(viewAt(t)), ratio, 1e-12) << t;
+    zoom({{0.0, 1.0}, {2.0, 0.3}}, PathInterpolation::Linear, PathEase::InOut);
+    const double whole = std::log(focal(0.3) / focal(1.0));
+    EXPECT_NEAR(std::log(focal(viewAt(0.5)) / focal(1.0)) / whole, 0.15625, 1e-12);
+}
+
+TEST_F(Lens, InterpolationBetweenTheWidestKeysIsAValidLens) {
+    zoom({{0.0, 3.14}, {0.01, 1e-9}, {1.0, 1e-9}, {1.01, 3.14}, {5.0, 1e-3}});
+    for (double t = -0.1; t < 5.2; t += 0.003) {
+        ASSERT_GT(viewAt(t), 0.0) << t;
+        ASSERT_LT(viewAt(t), std::numbers::pi) << t;
+    }
+}
+
+TEST_F(Lens, ACutOfTheLensJumpsAndACutOfEitherLensOrPathHoldsItInThatFrame) {
+    zoom({{0.0, 0.9}, {1.0, 0.8}, {2.0, 0.3, true}, {3.0, 0.2}});
+    EXPECT_EQ(viewAt(1.999), 0.8);
+    EXPECT_EQ(viewAt(2.0), 0.3);
+    const auto& lens = mWorld.registry.get<LensMotion>(mCamera);
+    EXPECT_TRUE(hasCutWithin(lens, 1.9, 2.0));
+    EXPECT_FALSE(hasCutWithin(lens, 2.0, 2.1));
+    PathMotion path;
+    path.keys.resize(2);
+    path.keys[1].seconds = 2.0;
+    path.keys[1].cut = true;
+    for (const bool isOfPath : {false, true}) {
+        if (isOfPath) {
+            zoom({{0.0, 0.9}, {4.0, 0.3}});
+            mWorld.registry.add(mCamera, path);
+        }
+        const ExposureMotion cut = expose(0.1, 2.01);
+        EXPECT_TRUE(cut.isCut());
+        EXPECT_EQ(cut.cameraYFov(0.0), viewAt(2.01));
+        EXPECT_EQ(cut.cameraYFov(1.0), viewAt(2.01));
+        EXPECT_FALSE(cut.mayCameraZoom());
+    }
+    const ExposureMotion before = expose(0.1, 1.9);
+    EXPECT_EQ(before.cameraYFov(0.0), viewAt(before.exposure().open));
+    EXPECT_NE(before.cameraYFov(0.0), before.cameraYFov(1.0));
+    EXPECT_TRUE(before.mayCameraZoom());
+}
+
+TEST_F(Lens, BlurByZoomingScalesWithThatByTurning) {
+    zoom({{0.0, 0.9}, {4.0, 0.3}});
+    CameraShutter shutter{.exposureSeconds = 0.5};
+    const auto lensAt = [&](double s) {
+        return ExposureMotion(mWorld, mCamera, computeExposure(shutter, 2.0)).cameraYFov(s);
+    };
+    EXPECT_EQ(lensAt(0.0), viewAt(1.5));
+    shutter.cameraRotationScale = 0.5;
+    EXPECT_EQ(lensAt(0.0), viewAt(1.75));
+    shutter.cameraRotationScale = 0.0;
+    EXPECT_EQ(lensAt(0.0), viewAt(2.0));
+}
+
+TEST_F(Lens, ExcludedEntitiesFollowTheZoom) {
+    zoom({{0.0, 0.9}, {4.0, 0.3}});
+    const ecs::Entity still = mWorld.registry.create();
+    mWorld.registry.add(still, LocalTransform{{{1.0, 2.0, -5.0}, {1, 0, 0, 0}, math::dvec3(1.0)}});
+    mWorld.registry.add(still, MotionBlur{.exclude = true});
+    const ExposureMotion motion = expose(0.5, 2.0);
+    EXPECT_TRUE(motion.mayObjectMove(still));
+    const auto seen = [&](double s) {
+        const math::dvec4 place = motion.worldFromObject(still, s)[3];
+        return math::dvec2(place) / -place.z * focal(motion.cameraYFov(s));
+    };
+    EXPECT_NE(motion.worldFromObject(still, 0.0), motion.worldFromObject(still, 1.0));
+    for (const double s : {0.0, 0.3, 0.7}) {
+        EXPECT_NEAR(seen(s).x, seen(1.0).x, 1e-12);
+        EXPECT_NEAR(seen(s).y, seen(1.0).y, 1e-12);
     }
 }
 
