@@ -48,39 +48,34 @@ AnimationChannel makeTurn(const vec4& from, const vec4& to) {
     return channel;
 }
 
-TEST(SampleChannel, LinearMixesTheKeysAroundTheTime) {
-    const AnimationChannel channel = makeMove(Interpolation::Linear);
-    EXPECT_EQ(sampleChannel(channel, 2.0), dvec4(channel.values[1]));
-    expectNearKey(sampleChannel(channel, 1.25), {2.5, 0.0, 0.0, 0.0});
-    expectNearKey(sampleChannel(channel, 3.5), {10.0, 6.0, 0.0, 0.0});
+TEST(SampleChannel, LinearMixesTheKeysAroundTheTimeAndStepHoldsTheLastUntilTheNext) {
+    const AnimationChannel linear = makeMove(Interpolation::Linear);
+    EXPECT_EQ(sampleChannel(linear, 2.0), dvec4(linear.values[1]));
+    expectNearKey(sampleChannel(linear, 1.25), {2.5, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(linear, 3.5), {10.0, 6.0, 0.0, 0.0});
+    const AnimationChannel step = makeMove(Interpolation::Step);
+    expectNearKey(sampleChannel(step, 1.999), {0.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(step, 2.0), {10.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(step, 3.999), {10.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(step, 4.0), {10.0, 8.0, 0.0, 0.0});
 }
 
-TEST(SampleChannel, StepHoldsTheLastKeyUntilTheNext) {
-    const AnimationChannel channel = makeMove(Interpolation::Step);
-    expectNearKey(sampleChannel(channel, 1.999), {0.0, 0.0, 0.0, 0.0});
-    expectNearKey(sampleChannel(channel, 2.0), {10.0, 0.0, 0.0, 0.0});
-    expectNearKey(sampleChannel(channel, 3.999), {10.0, 0.0, 0.0, 0.0});
-    expectNearKey(sampleChannel(channel, 4.0), {10.0, 8.0, 0.0, 0.0});
-}
-
-TEST(SampleChannel, TimesOutsideTheKeysAreClamped) {
-    const AnimationChannel channel = makeMove(Interpolation::Linear);
-    for (const double before : {0.0, -5.0, -kInfinity, kNan})
-        EXPECT_EQ(sampleChannel(channel, before), dvec4(0.0)) << before;
-    for (const double after : {4.5, 1e300, kInfinity})
-        EXPECT_EQ(sampleChannel(channel, after), dvec4(10.0, 8.0, 0.0, 0.0)) << after;
-}
-
-TEST(SampleChannel, ASingleKeyHoldsForEver) {
-    AnimationChannel channel;
-    channel.times = {3.0f};
-    channel.values = {vec4(1.0f, 2.0f, 3.0f, 0.0f)};
-    for (const double seconds : {-1.0, 3.0, 9.0})
-        EXPECT_EQ(sampleChannel(channel, seconds), dvec4(1.0, 2.0, 3.0, 0.0));
-    channel.interpolation = Interpolation::CubicSpline;
-    channel.values = {vec4(7.0f), vec4(1.0f, 2.0f, 3.0f, 0.0f), vec4(8.0f)};
-    for (const double seconds : {-1.0, 3.0, 9.0})
-        EXPECT_EQ(sampleChannel(channel, seconds), dvec4(1.0, 2.0, 3.0, 0.0));
+TEST(SampleChannel, TimesOutsideTheKeysAreClampedAndASingleKeyHoldsForEver) {
+    const AnimationChannel move = makeMove(Interpolation::Linear);
+    AnimationChannel single;
+    single.times = {3.0f};
+    single.values = {vec4(1.0f, 2.0f, 3.0f, 0.0f)};
+    AnimationChannel cubic = single;
+    cubic.interpolation = Interpolation::CubicSpline;
+    cubic.values = {vec4(7.0f), single.values[0], vec4(8.0f)};
+    for (const double seconds : {0.0, -5.0, -kInfinity, kNan, 3.0, 4.5, 1e300, kInfinity}) {
+        if (seconds != 3.0) {
+            const bool isAfter = seconds > 3.0;
+            EXPECT_EQ(sampleChannel(move, seconds), double(isAfter) * dvec4(10.0, 8.0, 0.0, 0.0));
+        }
+        EXPECT_EQ(sampleChannel(single, seconds), dvec4(1.0, 2.0, 3.0, 0.0)) << seconds;
+        EXPECT_EQ(sampleChannel(cubic, seconds), dvec4(1.0, 2.0, 3.0, 0.0)) << seconds;
+    }
 }
 
 TEST(SampleChannel, CubicSplineScalesTangentsByTheKeyInterval) {
@@ -175,40 +170,33 @@ class SampleAnimated : public testing::Test {
     math::Transform mRest;
 };
 
-TEST_F(SampleAnimated, ARotationChannelTurnsThePose) {
-    mAssets.clips[0].channels[0] = makeTurn(turnZ(0), turnZ(90));
-    mAnimated.channels = {{0, 0}};
-    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
-    EXPECT_NEAR(pose.rotation.w, std::numbers::sqrt2 / 2.0, kTolerance);
-    EXPECT_NEAR(pose.rotation.z, std::numbers::sqrt2 / 2.0, kTolerance);
-    EXPECT_EQ(pose.translation, mRest.translation);
-}
-
-TEST_F(SampleAnimated, TheLaterClipWinsInWhateverOrderTheyAreListed) {
-    mAnimated.channels = {{0, 0}, {1, 0}};
-    EXPECT_EQ(sampleX(1.0), 101.0);
+TEST_F(SampleAnimated, TheLatestActiveClipWinsInWhateverOrderTheyAreListed) {
     mAnimated.channels = {{1, 0}, {0, 0}};
     EXPECT_EQ(sampleX(1.0), 101.0);
-}
-
-TEST_F(SampleAnimated, ClipsOfDifferentPropertiesCombine) {
-    mAnimated.channels = {{0, 0}, {1, 1}};
-    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
-    EXPECT_EQ(pose.translation, dvec3(1.0));
-    EXPECT_EQ(pose.scale, dvec3(3.0));
-}
-
-TEST_F(SampleAnimated, AnInactiveClipLeavesTheEarlierOneOrTheRestPose) {
     mAnimated.channels = {{0, 0}, {1, 0}};
+    EXPECT_EQ(sampleX(1.0), 101.0);
     mPlayback.activeClips = {true, false};
     EXPECT_EQ(sampleX(1.0), 1.0);
     mPlayback.activeClips = {false, false};
-    EXPECT_EQ(sampleX(1.0), -1.0);
+    EXPECT_EQ(sampleX(1.0), -1.0) << "the rest pose";
     mPlayback.activeClips = {}; // unset: all play
     EXPECT_EQ(sampleX(1.0), 101.0);
 }
 
-TEST_F(SampleAnimated, AClipHoldsAtTheEndsUnlessLooping) {
+TEST_F(SampleAnimated, ChannelsOfDifferentPropertiesCombineInThePose) {
+    mAnimated.channels = {{0, 0}, {1, 1}};
+    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_EQ(pose.translation, dvec3(1.0));
+    EXPECT_EQ(pose.scale, dvec3(3.0));
+    mAssets.clips[0].channels[0] = makeTurn(turnZ(0), turnZ(90));
+    mAnimated.channels = {{0, 0}};
+    const math::Transform turned = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_NEAR(turned.rotation.w, std::numbers::sqrt2 / 2.0, kTolerance);
+    EXPECT_NEAR(turned.rotation.z, std::numbers::sqrt2 / 2.0, kTolerance);
+    EXPECT_EQ(turned.translation, mRest.translation);
+}
+
+TEST_F(SampleAnimated, AClipHoldsAtTheEndsUnlessLoopingWhichWrapsByTheClip) {
     mAnimated.channels = {{0, 0}};
     EXPECT_EQ(sampleX(5.0), 4.0);
     EXPECT_EQ(sampleX(-1.0), 0.0);
@@ -217,22 +205,12 @@ TEST_F(SampleAnimated, AClipHoldsAtTheEndsUnlessLooping) {
     EXPECT_EQ(sampleX(4.0), 0.0);
     EXPECT_EQ(sampleX(4001.5), 1.5);
     EXPECT_EQ(sampleX(-1.0), 3.0);
-}
-
-TEST_F(SampleAnimated, LoopingWrapsByTheClipNotByTheChannel) {
     mAssets.clips[0].duration = 10.0; // another channel runs longer
-    mAnimated.channels = {{0, 0}};
-    mPlayback.loop = true;
     EXPECT_EQ(sampleX(7.0), 4.0);
     EXPECT_EQ(sampleX(12.0), 2.0);
-}
-
-TEST_F(SampleAnimated, LoopingAClipOfNoDurationHolds) {
-    mAssets.clips[0] = {"pose", 0.0, {AnimationChannel{}}};
+    mAssets.clips[0].duration = 0.0;
     mAssets.clips[0].channels[0].times = {0.0f};
     mAssets.clips[0].channels[0].values = {vec4(6.0f)};
-    mAnimated.channels = {{0, 0}};
-    mPlayback.loop = true;
     for (const double seconds : {-3.0, 0.0, 2.5, kInfinity, kNan})
         EXPECT_EQ(sampleX(seconds), 6.0);
 }
@@ -282,22 +260,20 @@ class ClipJumpsTest : public testing::Test {
     ecs::Entity mEntity;
 };
 
-TEST_F(ClipJumpsTest, AStepIsAsShortAsRoundingAllowsAndLiesBetweenTheTwoPlaces) {
-    animate(mEntity, Interpolation::Step, {0.0f, 0.7f, 1.3f}, {1.0f, 5.0f, 9.0f});
-    const std::vector<Jump> jumps = find(mEntity, {0.5, 1.0});
+TEST_F(ClipJumpsTest, AStepThatChangesAnythingWithinTheSpanIsAsShortAsRoundingAllows) {
+    animate(mEntity, Interpolation::Step, {0.0f, 1.0f, 2.3f, 3.1f}, {1.0f, 1.0f, 4.0f, 5.0f});
+    const std::vector<Jump> jumps = find(mEntity, {2.0, 2.5});
     ASSERT_EQ(jumps.size(), 1u);
     EXPECT_LT(jumps[0].after - jumps[0].before, 1e-13);
     EXPECT_EQ(placeAt(jumps[0].before), 1.0);
-    EXPECT_EQ(placeAt(jumps[0].after), 5.0);
-}
-
-TEST_F(ClipJumpsTest, KeysOutsideTheSpanAndKeysThatChangeNothingAreNone) {
-    animate(mEntity, Interpolation::Step, {0.0f, 1.0f, 2.0f, 3.0f}, {1.0f, 1.0f, 4.0f, 5.0f});
+    EXPECT_EQ(placeAt(jumps[0].after), 4.0);
     EXPECT_TRUE(find(mEntity, {0.5, 1.5}).empty()) << "the value stays";
-    EXPECT_TRUE(find(mEntity, {2.1, 2.9}).empty());
-    EXPECT_EQ(find(mEntity, {0.5, 2.0}).size(), 1u) << "at the span's end";
-    EXPECT_EQ(find(mEntity, {2.0, 2.5}).size(), 1u) << "at its beginning";
+    EXPECT_TRUE(find(mEntity, {2.4, 2.9}).empty());
     EXPECT_EQ(find(mEntity, {-1.0, 9.0}).size(), 2u);
+    const ecs::Entity whole = add();
+    animate(whole, Interpolation::Step, {0.0f, 2.0f}, {1.0f, 4.0f});
+    EXPECT_EQ(find(whole, {0.5, 2.0}).size(), 1u) << "at the span's end";
+    EXPECT_EQ(find(whole, {2.0, 2.5}).size(), 1u) << "at its beginning";
 }
 
 TEST_F(ClipJumpsTest, OnlyNearlySimultaneousKeysOfStraightMotionAreAJump) {
@@ -354,7 +330,7 @@ TEST_F(ClipJumpsTest, ChildrenAndSkinsJumpWithWhatTheyHangOn) {
     EXPECT_EQ(find(skinned, {0.5, 1.5}).size(), 1u) << "once, though two joints have it";
 }
 
-TEST_F(ClipJumpsTest, WeightsOfMorphTargetsJumpForTheirEntityAlone) {
+TEST_F(ClipJumpsTest, WeightsOfMorphTargetsJumpForTheirEntityAloneAndWhileTheirClipPlays) {
     AnimationClip clip;
     clip.duration = 2.0;
     WeightChannel& channel = clip.weightChannels.emplace_back();
@@ -366,13 +342,12 @@ TEST_F(ClipJumpsTest, WeightsOfMorphTargetsJumpForTheirEntityAlone) {
     mWorld.registry.add(mEntity, MorphWeights{{0.0f, 0.0f}, {{0, 0}}});
     EXPECT_EQ(find(mEntity, {0.5, 2.5}).size(), 1u);
     EXPECT_TRUE(find(add(mEntity), {0.5, 2.5}).empty());
-}
-
-TEST_F(ClipJumpsTest, AClipThatDoesNotPlayDoesNotJump) {
-    animate(mEntity, Interpolation::Step, {0.0f, 1.0f}, {0.0f, 1.0f});
     mWorld.playback.activeClips = {false};
+    EXPECT_TRUE(find(mEntity, {0.5, 2.5}).empty());
+    animate(mEntity, Interpolation::Step, {0.0f, 1.0f}, {0.0f, 1.0f});
+    mWorld.playback.activeClips = {false, false};
     EXPECT_TRUE(ClipJumps(mWorld, {0.5, 1.5}, kLongest).empty());
-    mWorld.playback.activeClips = {true};
+    mWorld.playback.activeClips = {false, true};
     EXPECT_FALSE(ClipJumps(mWorld, {0.5, 1.5}, kLongest).empty());
 }
 

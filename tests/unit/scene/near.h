@@ -20,4 +20,11 @@ expectNear(const math::dvec3& actual, const math::dvec3& expected, double tolera
         EXPECT_NEAR(actual[i], expected[i], tolerance) << "axis " << i;
 }
 
+inline void
+expectNear(const math::dmat4& actual, const math::dmat4& expected, double tolerance = 1e-9) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            EXPECT_NEAR(actual[column][row], expected[column][row], tolerance) << column << row;
+}
+
 } // namespace shutter::scene

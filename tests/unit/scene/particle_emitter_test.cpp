@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/particle_emitter.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,6 +88,8 @@ TEST(ParticleEmission, ALifeHoldsItsFirstInstantAndNotItsLast) {
     EXPECT_EQ(list(emitter, 0.9, 1.0).size(), 3u);
     EXPECT_EQ(list(emitter, 1.5, 1.6).size(), 0u);
     EXPECT_EQ(list(emitter, 0.0, 5.0).size(), 3u) << "born and dead within";
+    EXPECT_TRUE(list(makeEmitter(0.0), 2.0, 2.0).empty()) << "a rate of 0 emits nothing";
+    EXPECT_TRUE(list(ParticleEmitter{}, 2.0, 2.0).empty());
 }
 
 TEST(ParticleEmission, ParticleSpacingAfterTenHoursIsThatAtFirst) {
@@ -113,17 +115,11 @@ TEST(ParticleEmission, SpansAndBurstsThatComeOrGoChangeNoOther) {
     emitter.spans.erase(emitter.spans.begin());
     const auto first = list(emitter, 1.0, 1.0);
     EXPECT_EQ(first.size(), 10u + list(makeEmitter(50.0), 1.0, 1.0).size());
-}
-
-TEST(ParticleEmission, SeedsGiveDifferentParticles) {
-    ParticleEmitter emitter = makeEmitter(50.0);
-    const auto one = list(emitter, 2.0, 2.0);
     emitter.seed = 1;
-    const auto other = list(emitter, 2.0, 2.0);
-    ASSERT_FALSE(other.empty());
-    for (const ParticleBirth& a : one)
-        for (const ParticleBirth& b : other)
-            EXPECT_FALSE(a.place == b.place);
+    ASSERT_FALSE(alone.empty());
+    for (const ParticleBirth& other : list(emitter, 2.0, 2.0))
+        for (const ParticleBirth& one : alone)
+            EXPECT_FALSE(one.place == other.place) << "another seed gives other particles";
 }
 
 TEST(ParticleEmission, ACountThatNoPictureShowsIsRefusedWithoutBeingListed) {
@@ -137,7 +133,6 @@ TEST(ParticleEmission, ACountThatNoPictureShowsIsRefusedWithoutBeingListed) {
 }
 
 TEST(ParticleEmission, BadValuesAreRefusedByName) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const auto expectRefused = [](const std::string& part, auto&& change) {
         ParticleEmitter emitter = makeEmitter(10.0);
         emitter.bursts = {{.seconds = 1.0, .count = 1}};
@@ -173,11 +168,6 @@ TEST(ParticleEmission, BadValuesAreRefusedByName) {
     expectRefused("softMetres", [&](auto& e) { e.softMetres = kNan; });
     expectRefused("colors[1]", [](auto& e) { e.colors[1].r = 1001.0f; });
     expectRefused("colors[2]", [](auto& e) { e.colors[2].a = 1.5f; });
-}
-
-TEST(ParticleEmission, ARateOf0EmitsNothing) {
-    EXPECT_TRUE(list(makeEmitter(0.0), 2.0, 2.0).empty());
-    EXPECT_TRUE(list(ParticleEmitter{}, 2.0, 2.0).empty());
 }
 
 } // namespace

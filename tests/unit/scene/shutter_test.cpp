@@ -38,6 +38,14 @@ ShutterResponse sampled(std::vector<double> samples) {
     return response;
 }
 
+/// As many samples as a table has knots, none of them alike its neighbours.
+ShutterResponse sampledMost(size_t factor = 7, size_t modulus = 5) {
+    std::vector<double> most(shader::kMaxResponseKnots);
+    for (size_t i = 0; i < most.size(); ++i)
+        most[i] = double((i * factor) % modulus);
+    return sampled(most);
+}
+
 ShutterResponse triangle() {
     ShutterResponse response;
     response.shape = ResponseShape::Triangle;
@@ -57,49 +65,56 @@ double integrate(const std::function<double(double)>& height, double s) {
     return before / all;
 }
 
-TEST(ExposureSeconds, PhysicalIsTheSameAtEveryFrameRate) {
-    for (const double frame : {1.0 / 240.0, 1.0 / 24.0, 10.0})
-        EXPECT_EQ(computeExposureSeconds(makeShutter(ShutterMode::Physical), frame), 0.01);
+TEST(ExposureSeconds, PhysicalIsTheSameAtEveryFrameRateAnglesAreSharesOfFramesAndCapsHold) {
+    struct Case {
+        ShutterMode mode;
+        double degrees;
+        double frame;
+        double expected;
+    };
+
+    const Case cases[] = {
+        {ShutterMode::Physical, 180.0, 1.0 / 240.0, 0.01},
+        {ShutterMode::Physical, 180.0, 1.0 / 24.0, 0.01},
+        {ShutterMode::Physical, 180.0, 10.0, 0.01},
+        {ShutterMode::Angle, 180.0, 1.0 / 24.0, 1.0 / 48.0},
+        {ShutterMode::Angle, 180.0, 1.0 / 120.0, 1.0 / 240.0},
+        {ShutterMode::Angle, 180.0, 10.0, 5.0}, // a hitch smears
+        {ShutterMode::Angle, 720.0, 0.1, 0.2},  // longer than a frame
+        {ShutterMode::Angle, 180.0, kInfinity, 0.0},
+        {ShutterMode::Capped, 180.0, 10.0, 1.0 / 48.0},
+        {ShutterMode::Capped, 180.0, kInfinity, 1.0 / 48.0},
+        {ShutterMode::Capped, 180.0, 1.0 / 12.0, 1.0 / 48.0},
+        {ShutterMode::Capped, 180.0, 1.0 / 60.0, 1.0 / 120.0}};
+    for (const Case& each : cases) {
+        CameraShutter shutter = makeShutter(each.mode);
+        shutter.angleDegrees = each.degrees;
+        EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, each.frame), each.expected)
+            << int(each.mode) << " " << each.frame;
+    }
 }
 
-TEST(ExposureSeconds, AnAngleIsAShareOfTheFrame) {
-    CameraShutter shutter = makeShutter(ShutterMode::Angle);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 24.0), 1.0 / 48.0);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 120.0), 1.0 / 240.0);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 10.0), 5.0) << "a hitch smears";
-    shutter.angleDegrees = 720.0;
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 0.1), 0.2) << "longer than a frame";
-}
-
-TEST(ExposureSeconds, ACapHoldsThroughAHitchAndLeavesFastFramesAlone) {
-    const CameraShutter shutter = makeShutter(ShutterMode::Capped);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 10.0), 1.0 / 48.0);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, kInfinity), 1.0 / 48.0);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 12.0), 1.0 / 48.0);
-    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 60.0), 1.0 / 120.0);
-}
-
-TEST(ExposureSeconds, ExposureIsZeroWhenPaused) {
-    for (const ShutterMode mode : {ShutterMode::Physical, ShutterMode::Angle, ShutterMode::Capped})
-        for (const double frame : {0.0, -1.0, kNan})
-            EXPECT_EQ(computeExposureSeconds(makeShutter(mode), frame), 0.0);
-}
-
-TEST(ExposureSeconds, NonFiniteDurationsHaveNoExposure) {
-    for (const double bad : {kNan, kInfinity, -1.0}) {
-        CameraShutter shutter = makeShutter(ShutterMode::Physical);
+TEST(ExposureSeconds, ExposureIsZeroWhenPausedOrOfADurationThatIsNone) {
+    for (const double bad : {kNan, -1.0, 0.0}) {
+        CameraShutter shutter;
         shutter.exposureSeconds = bad;
-        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
-        shutter = makeShutter(ShutterMode::Angle);
         shutter.angleDegrees = bad;
-        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
-    }
-    EXPECT_EQ(computeExposureSeconds(makeShutter(ShutterMode::Angle), kInfinity), 0.0);
-    for (const double bad : {kNan, 0.0, -24.0}) {
-        CameraShutter shutter = makeShutter(ShutterMode::Capped);
+        for (const ShutterMode mode :
+             {ShutterMode::Physical, ShutterMode::Angle, ShutterMode::Capped}) {
+            EXPECT_EQ(computeExposureSeconds(makeShutter(mode), bad), 0.0);
+            shutter.mode = mode;
+            EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0) << int(mode) << " " << bad;
+        }
+        shutter = makeShutter(ShutterMode::Capped);
         shutter.referenceFps = bad;
-        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
+        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0) << bad;
     }
+    CameraShutter endless = makeShutter(ShutterMode::Physical);
+    endless.exposureSeconds = kInfinity;
+    EXPECT_EQ(computeExposureSeconds(endless, 0.1), 0.0);
+    endless = makeShutter(ShutterMode::Angle);
+    endless.angleDegrees = kInfinity;
+    EXPECT_EQ(computeExposureSeconds(endless, 0.1), 0.0);
 }
 
 TEST(ComputeExposure, TheExposureContainsItsFrameAndShutter) {
@@ -114,16 +129,13 @@ TEST(ComputeExposure, TheExposureContainsItsFrameAndShutter) {
     EXPECT_EQ(computeExposure(shutter, 2.0, kNan).frameSeconds, 0.0);
 }
 
-TEST(Response, AConstantResponseNeedsNoTable) {
+TEST(Response, AConstantResponseNeedsNoTableAndTheTrianglesInverseIsTheClosedForm) {
     EXPECT_FALSE(computeResponseTable({}));
     EXPECT_FALSE(computeResponseTable(trapezoid(0.0, 0.0)));
     EXPECT_FALSE(computeResponseTable(trapezoid(1e-9, 1e-9))) << "no flank in single precision";
     EXPECT_FALSE(computeResponseTable(sampled({3.0, 3.0, 3.0})));
     for (const double u : {0.0, 0.1, 0.7, 1.0})
         EXPECT_EQ(invertResponse({}, u), u);
-}
-
-TEST(Response, TheTrianglesInverseIsTheClosedForm) {
     for (double u = 0.0; u <= 1.0; u += 1.0 / 64.0) {
         const double expected = u < 0.5 ? std::sqrt(u / 2.0) : 1.0 - std::sqrt((1.0 - u) / 2.0);
         // Near the end 1 - u is known to 2^-24, its root to 2^-12.
@@ -163,16 +175,13 @@ TEST(Response, TheInverseGoesBackToTheLightOfTheDefinition) {
 }
 
 TEST(Response, TimesRiseFromOpenToCloseAndStayThere) {
-    std::vector<double> most(64);
-    for (size_t i = 0; i < most.size(); ++i)
-        most[i] = double((i * 7) % 5);
     for (const ShutterResponse& response :
          {triangle(),
           trapezoid(0.5, 0.5),
           trapezoid(0.1, 0.0),
           sampled({0.0, 1.0}),
           sampled({1.0, 0.0}),
-          sampled(most)}) {
+          sampledMost()}) {
         double last = 0.0;
         for (int i = 0; i <= 1000; ++i) {
             const double s = invertResponse(response, i / 1000.0);
@@ -186,7 +195,7 @@ TEST(Response, TimesRiseFromOpenToCloseAndStayThere) {
     }
 }
 
-TEST(Response, DarkStretchesAreSkipped) {
+TEST(Response, DarkStretchesAreSkippedAndResponsesOfEqualShapeAreEqual) {
     // Light in the middle fifth alone, flanks included.
     const ShutterResponse response = sampled({0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
     for (int i = 1; i < 100; ++i) {
@@ -195,14 +204,17 @@ TEST(Response, DarkStretchesAreSkipped) {
         EXPECT_LT(s, 0.6);
     }
     EXPECT_NEAR(invertResponse(response, 0.0), 0.4, 1e-6) << "no light is taken at 0";
+    for (const double height : {1e-300, 1.0, 1e300})
+        EXPECT_NEAR(
+            invertResponse(sampled({0.0, height, height}), 0.3),
+            invertResponse(sampled({0.0, 1.0, 1.0}), 0.3),
+            1e-7
+        );
 }
 
-TEST(Response, LookUpsBeginAtTheLastKnotThatIsNotTooLate) {
-    std::vector<double> most(shader::kMaxResponseKnots);
-    for (size_t i = 0; i < most.size(); ++i)
-        most[i] = double((i * 7) % 5);
+TEST(Response, LookUpsBeginAtTheLastKnotThatIsNotTooLateOrAtTheFirst) {
     for (const ShutterResponse& response :
-         {triangle(), trapezoid(0.25, 0.5), sampled({0, 0, 0, 1, 0, 0, 5, 5, 0}), sampled(most)}) {
+         {triangle(), trapezoid(0.25, 0.5), sampled({0, 0, 0, 1, 0, 0, 5, 5, 0}), sampledMost()}) {
         const auto table = computeResponseTable(response);
         for (uint32_t cell = 0; cell < shader::kResponseCells; ++cell) {
             const double light = double(cell) / shader::kResponseCells;
@@ -213,28 +225,13 @@ TEST(Response, LookUpsBeginAtTheLastKnotThatIsNotTooLate) {
             }
         }
     }
-}
-
-TEST(Response, FirstKnotsOfZeroAreRightAsWell) {
-    std::vector<double> most(shader::kMaxResponseKnots);
-    for (size_t i = 0; i < most.size(); ++i)
-        most[i] = double((i * 11) % 7);
-    const auto filled = computeResponseTable(sampled(most));
+    const auto filled = computeResponseTable(sampledMost(11, 7));
     auto zero = filled;
     std::fill(std::begin(zero->firstKnots), std::end(zero->firstKnots), 0u);
     for (int i = -5; i <= 1005; ++i) {
         const float u = float(i) / 1000.0f;
         EXPECT_EQ(shader::inverseResponse({*zero}, u), shader::inverseResponse({*filled}, u)) << u;
     }
-}
-
-TEST(Response, ResponsesOfEqualShapeAreEqual) {
-    for (const double height : {1e-300, 1.0, 1e300})
-        EXPECT_NEAR(
-            invertResponse(sampled({0.0, height, height}), 0.3),
-            invertResponse(sampled({0.0, 1.0, 1.0}), 0.3),
-            1e-7
-        );
 }
 
 TEST(ExposurePart, APartsRasterInstantIsTheNearestToTheFrames) {
@@ -259,7 +256,7 @@ TEST(ExposurePart, APartsRasterInstantIsTheNearestToTheFrames) {
     }
 }
 
-TEST(ExposurePart, APartTakesItsShareOfTheLight) {
+TEST(ExposurePart, APartTakesItsShareOfTheLightAndIsUniformWithoutAny) {
     CameraShutter shutter = makeShutter(ShutterMode::Physical);
     shutter.exposureSeconds = 1.0;
     for (const ShutterResponse& response :
@@ -283,11 +280,6 @@ TEST(ExposurePart, APartTakesItsShareOfTheLight) {
             }
         }
     }
-}
-
-TEST(ExposurePart, APartWithoutLightIsUniform) {
-    CameraShutter shutter = makeShutter(ShutterMode::Physical);
-    shutter.exposureSeconds = 1.0;
     shutter.response = sampled({1.0, 0.0, 0.0, 1.0});
     const ExposureInterval whole = computeExposure(shutter, 1.0, 2.0);
     EXPECT_EQ(invertLight(takePart(whole, 0.4, 0.6), 0.25), 0.25);
@@ -295,23 +287,22 @@ TEST(ExposurePart, APartWithoutLightIsUniform) {
 }
 
 TEST(Response, BadOnesAreRefused) {
-    EXPECT_TRUE(validateResponse(triangle()).ok());
-    EXPECT_TRUE(validateResponse(trapezoid(0.5, 0.5)).ok());
-    EXPECT_TRUE(validateResponse(sampled({0.0, 1.0})).ok());
-    EXPECT_TRUE(validateResponse(sampled(std::vector<double>(64, 1.0))).ok());
+    using Samples = std::vector<double>;
+    for (const ShutterResponse& good :
+         {triangle(), trapezoid(0.5, 0.5), sampled({0.0, 1.0}), sampled(Samples(64, 1.0))})
+        EXPECT_TRUE(validateResponse(good).ok());
     for (const auto& [open, close] :
          {std::pair{-0.1, 0.0}, {0.0, 1.1}, {kNan, 0.0}, {0.0, kNan}, {0.6, 0.5}})
         EXPECT_FALSE(validateResponse(trapezoid(open, close)).ok()) << open << ", " << close;
-    const std::vector<double> bad[] = {
-        {},
-        {1.0},
-        std::vector<double>(65, 1.0),
-        {0.0, 0.0},
-        {1.0, -0.5},
-        {1.0, kNan},
-        {1.0, kInfinity}};
-    for (const auto& samples : bad)
-        EXPECT_FALSE(validateResponse(sampled(samples)).ok()) << samples.size();
+    for (const Samples& bad :
+         {Samples{},
+          {1.0},
+          Samples(65, 1.0),
+          {0.0, 0.0},
+          {1.0, -0.5},
+          {1.0, kNan},
+          {1.0, kInfinity}})
+        EXPECT_FALSE(validateResponse(sampled(bad)).ok()) << bad.size();
 }
 
 } // namespace
