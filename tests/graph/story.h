@@ -48,12 +48,27 @@ template <class Setup> void addPass(Graph& graph, std::string name, PassKind kin
     );
 }
 
-/// A compute pass that stores to `image`.
-inline ImageHandle store(Graph& graph, std::string name, ImageHandle image) {
-    addPass(graph, std::move(name), PassKind::Compute, [&](PassBuilder& builder) {
-        image = builder.write(image, Access::StorageWrite);
+/// A pass that only writes `handle`. \return the version that it leaves
+template <class Handle>
+Handle addWriter(Graph& graph, std::string name, PassKind kind, Handle handle, Access access) {
+    addPass(graph, std::move(name), kind, [&](PassBuilder& builder) {
+        handle = builder.write(handle, access);
     });
-    return image;
+    return handle;
+}
+
+/// A pass that only reads `handle`, wanted for its own sake.
+template <class Handle>
+void addReader(Graph& graph, std::string name, PassKind kind, Handle handle, Access access) {
+    addPass(graph, std::move(name), kind, [&](PassBuilder& builder) {
+        builder.read(handle, access);
+        builder.sideEffect();
+    });
+}
+
+/// A compute pass that stores to `target`.
+template <class Handle> Handle store(Graph& graph, std::string name, Handle target) {
+    return addWriter(graph, std::move(name), PassKind::Compute, target, Access::StorageWrite);
 }
 
 /// A compute pass that samples `source` and stores to `target`.
@@ -67,10 +82,7 @@ inline ImageHandle filter(Graph& graph, std::string name, ImageHandle source, Im
 
 /// A compute pass that samples `source`, wanted for its own sake.
 inline void sample(Graph& graph, std::string name, ImageHandle source) {
-    addPass(graph, std::move(name), PassKind::Compute, [&](PassBuilder& builder) {
-        builder.read(source, Access::SampledCompute);
-        builder.sideEffect();
-    });
+    addReader(graph, std::move(name), PassKind::Compute, source, Access::SampledCompute);
 }
 
 /// A raster pass with one target; cleared to black if `clear`.
