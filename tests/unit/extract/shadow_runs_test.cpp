@@ -93,7 +93,7 @@ dvec3 apply(
     return at;
 }
 
-class ShadowRuns : public ::testing::Test {
+class RandomShadows : public ::testing::Test {
   protected:
     double uniform(double from, double to) {
         return std::uniform_real_distribution(from, to)(mRandom);
@@ -108,6 +108,8 @@ class ShadowRuns : public ::testing::Test {
 
     std::mt19937 mRandom{11};
 };
+
+class ShadowRuns : public RandomShadows {};
 
 TEST_F(ShadowRuns, RunsMapPointsToTheirPlaceAtEachInstant) {
     size_t lengths[shader::kMaxRunInstants + 1] = {};
@@ -152,13 +154,10 @@ TEST_F(ShadowRuns, RunsBeginWithTheRasterInstants) {
         EXPECT_EQ(step, math::vec4(0.0f));
 }
 
-TEST_F(ShadowRuns, AStaticMoverHasOneRun) {
-    const MoverBeforeLight mover({}, direction(), 0, 0);
-    EXPECT_EQ(mover.runInstants(), 0u);
-    EXPECT_EQ(mover.runs().size(), 1u);
-}
-
 TEST_F(ShadowRuns, RunsAreAsShortAsTheMoversLayers) {
+    const MoverBeforeLight still({}, direction(), 0, 0);
+    EXPECT_EQ(still.runInstants(), 0u);
+    EXPECT_EQ(still.runs().size(), 1u);
     const Way straight{{2, 0, 0}, {0, 1, 0}, 0.0};
     EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 0).runInstants(), 4u);
     EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 4).runInstants(), 4u);
@@ -220,27 +219,20 @@ dvec3 lookUp(
     return dvec3(glm::inverse(own) * mapToLayer(caster, turn, toLight, layer) * dvec4(point, 1.0));
 }
 
-TEST_F(ShadowRuns, AMoverThatOnlyWentElsewhereKeepsItsRay) {
-    ShadowCaster caster;
-    caster.sphere = {{0.3, 1.0, 0.0}, 2.0};
-    const dvec3 way(0.2, -0.1, 0.4);
-    const dvec3 point(1.0, -2.0, 0.5);
-    const dvec3 found = lookUp(
-        caster, glm::translate(dmat4(1.0), way), glm::normalize(dvec3(0.2, 1.0, 0.1)), point
-    );
-    EXPECT_NEAR(glm::length(found - point - way), 0.0, 1e-9);
-}
-
-TEST_F(ShadowRuns, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
+TEST_F(ShadowRuns, ARayGoesAlongWithAMoverAndThroughTheSamePlaceOfItsMiddleWhenItTurns) {
     ShadowCaster caster;
     caster.sphere = {{3.0, 2.0, 1.0}, 2.0};
-    const dmat4 turn = glm::translate(dmat4(1.0), caster.sphere.centre) *
+    const dvec3 centre = caster.sphere.centre;
+    const dvec3 way(0.2, -0.1, 0.4);
+    const dvec3 point(1.0, -2.0, 0.5);
+    const dvec3 toSun = glm::normalize(dvec3(0.2, 1.0, 0.1));
+    const dvec3 gone = lookUp(caster, glm::translate(dmat4(1.0), way), toSun, point);
+    EXPECT_NEAR(glm::length(gone - point - way), 0.0, 1e-9);
+    const dmat4 turn = glm::translate(dmat4(1.0), centre) *
                        glm::rotate(dmat4(1.0), 0.1, dvec3(0, 0, 1)) *
-                       glm::translate(dmat4(1.0), -caster.sphere.centre);
-    // Through the middle, from far below.
-    const dvec3 point = caster.sphere.centre + dvec3(0, -8, 0);
-    const dvec3 found = lookUp(caster, turn, {0, 1, 0}, point);
-    EXPECT_NEAR(glm::length(found - point), 0.0, 1e-9);
+                       glm::translate(dmat4(1.0), -centre);
+    const dvec3 below = centre + dvec3(0, -8, 0); // a ray through the middle
+    EXPECT_NEAR(glm::length(lookUp(caster, turn, {0, 1, 0}, below) - below), 0.0, 1e-9);
 }
 
 TEST_F(ShadowRuns, RotationOfAFlatMoverPreservesTheRaysPlanePoint) {
@@ -271,12 +263,8 @@ TEST_F(ShadowRuns, FlatThingsNeedFewerLayersThanThickOnes) {
 
 constexpr uint32_t kTile = shader::kShadowTilePx;
 
-class ShadowTilesOfScenes : public testing::Test {
+class ShadowTilesOfScenes : public RandomShadows {
   protected:
-    double uniform(double least, double most) {
-        return std::uniform_real_distribution(least, most)(mRandom);
-    }
-
     dvec3 pointIn(const math::Bounds& box) {
         return {
             uniform(box.min.x, box.max.x),
@@ -301,8 +289,6 @@ class ShadowTilesOfScenes : public testing::Test {
         return uniform(0, 1) < 0.5 ? LightPlace(glm::normalize(way), 0.0)
                                    : LightPlace(8.0 * way, 1.0);
     }
-
-    std::mt19937 mRandom{7};
 };
 
 /// Pixels; nothing: it is not in the picture.
@@ -360,24 +346,6 @@ TEST_F(ShadowTilesOfScenes, TilesContainEveryPointThatAShadowMayReach) {
     }
     EXPECT_GT(shaded, 5000u);
     EXPECT_GT(spared, 400u * 66u / 4u) << "tiles that nothing reaches are marked";
-}
-
-TEST_F(ShadowTilesOfScenes, AShadowGrowsBelowALamp) {
-    ShadowPicture picture{{}, {333, 177}, {dvec3(-3, 0, -13), dvec3(3, 4, -7)}};
-    picture.clipFromWorld = math::clipFromViewPerspective(0.8, 333.0 / 177.0, 0.1) *
-                            glm::lookAt(dvec3(0, 1, 0), dvec3(0, 1, -1), dvec3(0, 1, 0));
-    const LightPlace lamp(0, 4, -10, 1);
-    const Sphere caster{{0, 3, -10}, 0.25}; // whose shadow is 2 metres wide on the floor
-    const auto box = boundShadow(picture, caster, lamp);
-    ASSERT_TRUE(box);
-    for (const double side : {-1.0, 1.0}) {
-        const dvec3 edge(side, 0, -10);
-        ASSERT_TRUE(isShaded(edge, lamp, caster));
-        const auto pixel = project(picture, edge);
-        ASSERT_TRUE(pixel);
-        EXPECT_GE(pixel->x, box->min.x);
-        EXPECT_LE(pixel->x, box->max.x);
-    }
 }
 
 TEST_F(ShadowTilesOfScenes, TilesSeparateMovers) {
