@@ -4,11 +4,12 @@
 #include "engine/scene/motion.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace shutter::extract {
 namespace {
+
+using math::dvec3;
 
 class BlendedLayers : public Extraction {
   protected:
@@ -17,15 +18,13 @@ class BlendedLayers : public Extraction {
         layout.hasBlended = true;
     }
 
-    void move(ecs::Entity entity, const math::dvec3& velocity) {
-        world.registry.add(entity, scene::LinearVelocity{velocity});
-    }
-
     /// Of the entities in the layer.
     std::vector<ecs::Entity> findLayer() {
         ExtractedFrame frame = extract();
-        frame.layerRows = findLayerRows(world, layout, request, motion(), frame);
-        return listLayer(frame);
+        std::vector<ecs::Entity> entities;
+        for (const uint32_t row : findLayerRows(world, layout, request, motion(), frame))
+            entities.push_back(frame.entityHandles[row]);
+        return entities;
     }
 
     BlendedLayer plan(const LayerLimits& limits) {
@@ -42,62 +41,61 @@ class BlendedLayers : public Extraction {
     }
 
     uint32_t glass = 0;
-
-  private:
-    static std::vector<ecs::Entity> listLayer(const ExtractedFrame& frame) {
-        std::vector<ecs::Entity> entities;
-        for (const uint32_t row : frame.layerRows)
-            entities.push_back(frame.entityHandles[row]);
-        return entities;
-    }
 };
 
-TEST_F(BlendedLayers, GlassThatMovesIsInTheLayerAndGlassApartFromItIsNot) {
-    const ecs::Entity moving = addBox({-6, 0, -20}, glass);
-    move(moving, {1, 0, 0});
-    addBox({10, 0, -20}, glass);
-    EXPECT_EQ(findLayer(), std::vector{moving});
-}
+TEST_F(BlendedLayers, GlassThatAMotionMayPassOrThatIsBeforeSuchGlassLeavesTheRaster) {
+    struct Box {
+        dvec3 position;
+        dvec3 velocity{0.0};
+        bool isGlass = true;
+        bool isInLayer = false;
+    };
 
-TEST_F(BlendedLayers, GlassBesideAMoverStaysAndGlassThatOneMayPassDoesNot) {
-    addBox({12, 0, -20}, glass);
-    const ecs::Entity passed = addBox({-4, 0, -10}, glass);
-    const ecs::Entity mover = addBox({-12, 0, -20});
-    EXPECT_TRUE(findLayer().empty());
-    move(mover, {8, 0, 0});
-    EXPECT_EQ(findLayer(), std::vector{passed});
-}
+    struct Case {
+        const char* name;
+        std::vector<Box> boxes;
+        dvec3 cameraVelocity{0.0};
+    };
 
-TEST_F(BlendedLayers, SurfacesInFrontOfALayersSurfaceAreInItToo) {
-    const ecs::Entity moving = addBox({0, 0, -20}, glass);
-    move(moving, {1, 0, 0});
-    const ecs::Entity before = addBox({0.5, 0, -12}, glass);
-    const ecs::Entity beforeThat = addBox({1.5, 0, -8}, glass);
-    addBox({-9, 0, -12}, glass);
-    EXPECT_EQ(findLayer(), (std::vector{moving, before, beforeThat}));
-}
-
-TEST_F(BlendedLayers, AMovingCameraAloneTakesNothingOutOfTheRaster) {
-    addBox({0, 0, -20}, glass);
-    addBox({0, 0, -30});
-    move(camera, {1, 0, 0});
-    EXPECT_TRUE(findLayer().empty());
-    // What rides with the camera moves in the world.
-    const ecs::Entity visor = addBox({3, 0, -10}, glass);
-    move(visor, {1, 0, 0});
-    const std::vector<ecs::Entity> layer = findLayer();
-    EXPECT_NE(std::find(layer.begin(), layer.end(), visor), layer.end());
-}
-
-TEST_F(BlendedLayers, AWorldWithoutBlendedGeometriesIsNotSearched) {
-    move(addBox({0, 0, -20}, glass), {1, 0, 0});
-    layout.hasBlended = false;
-    EXPECT_TRUE(findLayer().empty());
+    const std::vector<Case> cases{
+        {"glass that moves, and glass apart from it",
+         {{{-6, 0, -20}, {1, 0, 0}, true, true}, {{10, 0, -20}}}},
+        {"glass beside a static box", {{{12, 0, -20}}, {{-4, 0, -10}}, {{-12, 0, -20}, {}, false}}},
+        {"glass that a mover may pass",
+         {{{12, 0, -20}}, {{-4, 0, -10}, {}, true, true}, {{-12, 0, -20}, {8, 0, 0}, false}}},
+        {"surfaces in front of a layer's surface",
+         {{{0, 0, -20}, {1, 0, 0}, true, true},
+          {{0.5, 0, -12}, {}, true, true},
+          {{1.5, 0, -8}, {}, true, true},
+          {{-9, 0, -12}}}},
+        {"surfaces outside the picture, and those that enter it within the exposure",
+         {{{200, 0, -10}, {1, 0, 0}}, {{14, 0, -10}, {-6, 0, 0}, true, true}}},
+        {"static surfaces before a moving camera",
+         {{{0, 0, -20}}, {{0, 0, -30}, {}, false}},
+         {1, 0, 0}},
+        {"a visor that rides with the camera moves in the world",
+         {{{3, 0, -10}, {1, 0, 0}, true, true}},
+         {1, 0, 0}}};
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.name);
+        world = {};
+        request.camera = camera = addCamera({});
+        world.registry.add(camera, scene::LinearVelocity{each.cameraVelocity});
+        std::vector<ecs::Entity> expected;
+        for (const Box& box : each.boxes) {
+            const auto entity = addMover(box.position, box.velocity, box.isGlass ? glass : 0);
+            if (box.isInLayer)
+                expected.push_back(entity);
+        }
+        EXPECT_EQ(findLayer(), expected);
+        layout.hasBlended = false;
+        EXPECT_TRUE(findLayer().empty()) << "a world without blended geometries is not searched";
+        layout.hasBlended = true;
+    }
 }
 
 TEST_F(BlendedLayers, InstantsFollowTheLongestMotion) {
-    const ecs::Entity moving = addBox({0, 0, -20}, glass);
-    move(moving, {0.4, 0, 0});
+    const ecs::Entity moving = addMover({0, 0, -20}, {0.4, 0, 0}, glass);
     const BlendedLayer slow = plan(limitsOf(15));
     EXPECT_FALSE(slow.readsInstants);
     EXPECT_EQ(slow.partCount, 1u);
@@ -111,8 +109,7 @@ TEST_F(BlendedLayers, InstantsFollowTheLongestMotion) {
 
 TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstant) {
     addBox({0, 0, -10}, glass);
-    const ecs::Entity mover = addBox({0, 0, -20});
-    move(mover, {3, 0, 0});
+    const ecs::Entity mover = addMover({0, 0, -20}, {3, 0, 0});
     const BlendedLayer before = plan(limitsOf(15));
     EXPECT_FALSE(before.readsInstants);
     EXPECT_EQ(before.instants.size(), 1u);
@@ -131,7 +128,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
 
 TEST_F(BlendedLayers, FewerInstantsAreLookedUpWithLessMemory) {
     addBox({0, 0, -10}, glass);
-    move(addBox({0, 0, -5}), {3, 0, 0});
+    addMover({0, 0, -5}, {3, 0, 0});
     LayerLimits limits = limitsOf(15);
     const shader::InstantSurfaces whole = plan(limits).surfaces();
     const uint64_t pixels = shader::surfacePixels(whole);
@@ -147,10 +144,8 @@ TEST_F(BlendedLayers, FewerInstantsAreLookedUpWithLessMemory) {
 }
 
 TEST_F(BlendedLayers, TheNearestIsDrawnFirstAndPlacesAreOfTheItems) {
-    const ecs::Entity far = addBox({0, 0, -20}, glass);
-    const ecs::Entity near = addBox({0.5, 0, -10}, glass);
-    for (const ecs::Entity entity : {far, near})
-        move(entity, {2, 0, 0});
+    addMover({0, 0, -20}, {2, 0, 0}, glass);
+    addMover({0.5, 0, -10}, {2, 0, 0}, glass);
     const BlendedLayer layer = plan(limitsOf(15));
     ASSERT_EQ(layer.items.size(), 2u);
     EXPECT_LT(layer.items[0].draw.distance, layer.items[1].draw.distance);
@@ -163,14 +158,6 @@ TEST_F(BlendedLayers, TheNearestIsDrawnFirstAndPlacesAreOfTheItems) {
     EXPECT_NEAR(place.relWorldFromObject[2].w, -10.0, 1.0e-6);
     const math::vec4 clip = place.clipFromObject * math::vec4(0, 0, 0, 1);
     EXPECT_NEAR(clip.w, 10.0, 1.0e-5);
-}
-
-TEST_F(BlendedLayers, SurfacesOutsideThePictureAreNotDrawn) {
-    move(addBox({200, 0, -10}, glass), {1, 0, 0});
-    EXPECT_TRUE(findLayer().empty());
-    // Surfaces that enter it within the exposure are.
-    move(addBox({14, 0, -10}, glass), {-6, 0, 0});
-    EXPECT_EQ(findLayer().size(), 1u);
 }
 
 TEST(LayerInstants, InstantsAreSymmetricInTime) {

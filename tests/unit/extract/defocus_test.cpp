@@ -53,14 +53,8 @@ TEST_F(DefocusTest, AFloorCountsFromWhereThePictureShowsIt) {
     EXPECT_TRUE(isDefocusedBy(0.51 / share));
 }
 
-TEST_F(DefocusTest, InBoundsThatHoldTheCameraAnythingMayBeNear) {
-    addBox({0.0, 0.0, 0.5});
-    EXPECT_TRUE(isDefocusedBy(1e-3));
-}
-
 TEST_F(DefocusTest, WhatComesNearWithinTheExposureCounts) {
-    const ecs::Entity box = addBox({0.0, 0.0, -5.0});
-    world.registry.add(box, scene::LinearVelocity{{0.0, 0.0, 2.0}}); // the raster is at its end
+    addMover({0.0, 0.0, -5.0}, {0.0, 0.0, 2.0}); // the raster is at its end
     EXPECT_FALSE(isDefocusedBy(0.1));
     EXPECT_TRUE(isDefocusedBy(0.3));
 }
@@ -80,23 +74,22 @@ TEST_F(DefocusTest, WhatDeformsCountsWithWhereItIsAtTheExposuresEnds) {
     point.morphTargets.emplace_back().positions = {{0.0f, 0.0f, 2.0f}};
     layout.geometries[0].vertexCount = 1;
     layout.reaches.push_back(scene::computePoseReach({&point, 1}));
-    scene::WeightChannel channel;
-    channel.targetCount = 1;
-    channel.times = {0.0f, 1.0f};
-    channel.values = {1.0f, 0.0f};
-    world.assets.clips.push_back({"", 1.0, {}, {channel}});
-    const ecs::Entity box = addBox({0.0, 0.0, -5.0});
+    const ecs::Entity box = addMorphed({0.0, 0.0, -5.0}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    const auto weights = world.registry.get<scene::MorphWeights>(box);
+    world.registry.remove<scene::MorphWeights>(box);
     EXPECT_FALSE(isDefocusedBy(0.2));
-    world.registry.add(box, scene::MorphWeights{{1.0f}, {{0, 0}}});
+    world.registry.add(box, weights);
     EXPECT_TRUE(isDefocusedBy(0.2));
     EXPECT_FALSE(isDefocusedBy(0.1));
 }
 
-TEST_F(DefocusTest, APinholeSpreadsNothing) {
+TEST_F(DefocusTest, InBoundsThatHoldTheCameraAnythingMayBeNearAndAPinholeSpreadsNothing) {
     addBox({0.0, 0.0, 0.5});
-    EXPECT_FALSE(isDefocused(world, request, motion(), extract(), layout));
-    request.usesLens = true;
-    EXPECT_FALSE(isDefocused(world, request, motion(), extract(), layout));
+    for (const bool usesLens : {false, true}) {
+        request.usesLens = usesLens;
+        EXPECT_FALSE(isDefocused(world, request, motion(), extract(), layout));
+    }
+    EXPECT_TRUE(isDefocusedBy(1e-3));
 }
 
 } // namespace

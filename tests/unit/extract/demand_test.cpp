@@ -13,43 +13,27 @@
 namespace shutter::extract {
 namespace {
 
-DrawItem makeDraw(scene::AlphaMode mode) {
-    DrawItem draw;
-    draw.alphaMode = mode;
-    return draw;
-}
-
-TEST(Demand, PlainMeshesRequestNoFurtherPasses) {
+TEST(Demand, OnlyDrawnSurfacesRequestTheirPasses) {
     ExtractedFrame frame;
-    frame.opaque.still.push_back(makeDraw(scene::AlphaMode::Opaque));
-    const SurfaceDemand demand = decideSurfaces(frame);
-    EXPECT_FALSE(demand.deformation.run);
-    EXPECT_FALSE(demand.alphaMask.run);
-    EXPECT_FALSE(demand.blending.run);
-    EXPECT_EQ(describe(demand.alphaMask), "skipped: no surface in the picture has an alpha mask");
-}
-
-TEST(Demand, DrawnSurfacesRequestTheirPassesWithCounts) {
-    ExtractedFrame frame;
-    frame.opaque.still.assign(2, makeDraw(scene::AlphaMode::Mask));
-    frame.blended.moving.push_back(makeDraw(scene::AlphaMode::Blend));
+    frame.opaque.still.push_back({.alphaMode = scene::AlphaMode::Opaque});
+    const SurfaceDemand plain = decideSurfaces(frame);
+    EXPECT_FALSE(plain.deformation.run || plain.alphaMask.run || plain.blending.run);
+    EXPECT_EQ(describe(plain.alphaMask), "skipped: no surface in the picture has an alpha mask");
+    frame.opaque.still.assign(2, {.alphaMode = scene::AlphaMode::Mask});
+    frame.blended.moving.push_back({.alphaMode = scene::AlphaMode::Blend});
     frame.deformed.resize(3);
-    const SurfaceDemand demand = decideSurfaces(frame);
+    const SurfaceDemand all = decideSurfaces(frame);
     EXPECT_EQ(
-        describe(demand.deformation), "ran: 3 drawn entities with a skin, morph targets or waves"
+        describe(all.deformation), "ran: 3 drawn entities with a skin, morph targets or waves"
     );
-    EXPECT_EQ(describe(demand.alphaMask), "ran: 2 draws in the picture with an alpha mask");
-    EXPECT_EQ(describe(demand.blending), "ran: 1 blended draw in the picture");
+    EXPECT_EQ(describe(all.alphaMask), "ran: 2 draws in the picture with an alpha mask");
+    EXPECT_EQ(describe(all.blending), "ran: 1 blended draw in the picture");
 }
 
 /// Boxes that fill [-1, 1]^3 in front of a camera at the origin with -Z forward.
 class Backdrop : public Extraction {
   protected:
-    ecs::Entity addMover(const math::dvec3& position) {
-        const ecs::Entity entity = addBox(position);
-        world.registry.add(entity, scene::LinearVelocity{{0.5, 0.0, 0.0}});
-        return entity;
-    }
+    void addMover(const math::dvec3& position) { Extraction::addMover(position, {0.5, 0.0, 0.0}); }
 
     core::Decision decide() { return decideReveal(extract(), layout); }
 };
@@ -86,19 +70,14 @@ TEST_F(Backdrop, SurfacesBehindOrNextToAMoverMayBeRevealed) {
     }
 }
 
-TEST_F(Backdrop, NonFiniteBoxesMayBeAnywhere) {
+TEST_F(Backdrop, NonFiniteBoxesMayBeAnywhereAndBlendedSurfacesAlwaysCount) {
     addMover({0.0, 0.0, -10.0});
     addBox({12.0, 0.0, -20.0});
     ExtractedFrame frame = extract();
     ASSERT_FALSE(decideReveal(frame, layout).run);
     frame.entities[1].relWorldFromObject[2][3] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(decideReveal(frame, layout).run);
-}
-
-TEST_F(Backdrop, BlendedSurfacesAlwaysCount) {
-    addMover({0.0, 0.0, -10.0});
-    const uint32_t glass = addMesh(scene::AlphaMode::Blend, 1);
-    addBox(math::dvec3(12.0, 0.0, -20.0), glass);
+    addBox({12.0, 0.0, -20.0}, addMesh(scene::AlphaMode::Blend, 1));
     EXPECT_TRUE(decide().run);
 }
 
@@ -147,10 +126,9 @@ class InstanceMasksOfAFrame : public ::testing::Test {
             row.relWorldFromObject[i][i] = 1.0f;
         row.relWorldFromObject[2][3] = static_cast<float>(-distance);
         row.instanceMask = moves ? 0x55u : 0u; // whatever an earlier frame left
+        const DrawItem draw{.entity = static_cast<uint32_t>(frame.entities.size())};
         if (moves)
-            frame.movingRows.push_back(static_cast<uint32_t>(frame.entities.size()));
-        DrawItem draw;
-        draw.entity = static_cast<uint32_t>(frame.entities.size());
+            frame.movingRows.push_back(draw.entity);
         (moves ? frame.opaque.moving : frame.opaque.still).push_back(draw);
         frame.entities.push_back(row);
         frame.entityMeshes.push_back(0);
@@ -169,17 +147,20 @@ class InstanceMasksOfAFrame : public ::testing::Test {
     SceneLayout layout;
 };
 
-TEST_F(InstanceMasksOfAFrame, MoversGetUniqueMasksAndStaticEntitiesNone) {
-    for (int i = 0; i < 20; ++i)
-        add(5.0, i % 2 == 0);
+TEST_F(InstanceMasksOfAFrame, TheApparentlyLargestMoversGetUniqueMasksAndStaticEntitiesNone) {
+    for (int i = 0; i < 100; ++i)
+        add(3.0 + (i * 37) % 100, true);
+    add(0.0, true); // the camera's own place: no division by zero
+    add(1.0, false);
     const auto masks = assign();
     std::set<uint32_t> given;
-    for (size_t i = 0; i < masks.size(); ++i) {
-        EXPECT_EQ(masks[i] != 0, i % 2 == 0) << i;
-        if (masks[i] != 0) {
-            EXPECT_TRUE(given.insert(masks[i]).second) << i;
-        }
-        EXPECT_EQ(solidMaskOf(frame.entities[i]), masks[i] != 0 ? masks[i] : kSharedInstanceMask);
+    for (size_t row = 0; row < masks.size(); ++row) {
+        const bool isLarge = row == 100 || (row < 100 && (row * 37) % 100 < 33);
+        EXPECT_EQ(masks[row] != 0, isLarge) << row;
+        EXPECT_TRUE(masks[row] == 0 || given.insert(masks[row]).second) << row;
+        EXPECT_EQ(
+            solidMaskOf(frame.entities[row]), masks[row] != 0 ? masks[row] : kSharedInstanceMask
+        );
     }
 }
 
@@ -203,21 +184,6 @@ TEST_F(InstanceMasksOfAFrame, ARowChangesOnlyWithItsMask) {
     frame.changes.rows.clear();
     (void)assign();
     EXPECT_TRUE(frame.changes.rows.empty());
-}
-
-TEST_F(InstanceMasksOfAFrame, TheApparentlyLargestMoversGetMasksFirst) {
-    for (int i = 0; i < 100; ++i)
-        add(3.0 + (i * 37) % 100, true);
-    add(0.0, true); // the camera's own place: no division by zero
-    const auto masks = assign();
-    std::set<uint32_t> given;
-    for (int i = 0; i < 100; ++i) {
-        EXPECT_EQ(masks[size_t(i)] != 0, (i * 37) % 100 < 33) << i;
-        if (masks[size_t(i)] != 0) {
-            EXPECT_TRUE(given.insert(masks[size_t(i)]).second) << i;
-        }
-    }
-    EXPECT_NE(masks[100], 0u);
 }
 
 } // namespace

@@ -14,8 +14,6 @@
 namespace shutter::extract {
 namespace {
 
-using math::vec4;
-using scene::AnimationPath;
 using scene::Interpolation;
 
 /// The exposure runs from 1 s to 2 s, and the raster instant is its end.
@@ -27,40 +25,21 @@ class ExposureParts : public Extraction {
         mBox = addBox({0.0, 0.0, -10.0});
     }
 
-    void animate(
-        ecs::Entity entity,
-        AnimationPath path,
-        Interpolation interpolation,
-        std::vector<float> times,
-        std::vector<vec4> values
-    ) {
-        scene::AnimationClip clip;
-        clip.duration = double{times.back()};
-        scene::AnimationChannel& channel = clip.channels.emplace_back();
-        channel.path = path;
-        channel.interpolation = interpolation;
-        channel.times = std::move(times);
-        channel.values = std::move(values);
-        const auto index = static_cast<uint32_t>(world.assets.clips.size());
-        world.assets.clips.push_back(std::move(clip));
-        if (!world.registry.has<scene::Animated>(entity))
-            world.registry.add(entity, scene::Animated{});
-        world.registry.get<scene::Animated>(entity).channels.push_back({index, 0});
-    }
-
-    /// Scales by 0 and 1 in turns, beginning with `first`.
-    void blink(ecs::Entity entity, std::vector<float> times, float first = 0.0f) {
-        std::vector<vec4> values;
+    /// Scales by 0 and 1 in turns.
+    void blink(ecs::Entity entity, std::vector<float> times) {
+        std::vector<float> factors;
         for (size_t i = 0; i < times.size(); ++i)
-            values.emplace_back(vec4(i % 2 == 0 ? first : 1.0f - first));
-        animate(
-            entity, AnimationPath::Scale, Interpolation::Step, std::move(times), std::move(values)
-        );
+            factors.push_back(float(i % 2));
+        animateScale(entity, std::move(times), factors, Interpolation::Step);
     }
 
     std::vector<ExposurePart> plan() {
         request.exposure = scene::computeExposure(mShutter, mRaster, 1.0 / 24.0);
         return planExposureParts(world, layout, request);
+    }
+
+    scene::ExposureMotion motionIn(const ExposurePart& part) const {
+        return {world, camera, part.exposure};
     }
 
     /// The parts in their order, and which of them is the last one.
@@ -86,14 +65,20 @@ TEST_F(ExposureParts, AnExposureWithoutJumpsIsNotSplit) {
     EXPECT_TRUE(plan().empty());
     world.registry.add(mBox, scene::LinearVelocity{{100.0, 0.0, 0.0}});
     EXPECT_TRUE(plan().empty()) << "however fast it goes";
-    animate(
-        addBox({0, 0, -9}),
-        AnimationPath::Scale,
-        Interpolation::Linear,
-        {1.0f, 1.5f},
-        {vec4(0.0f), vec4(1.0f)}
-    );
+    world.playback.loop = true;
+    animateX(addBox({0.0, 0.0, -10.0}), {0.0f, 0.35f, 0.7f}, {0.0f, 2.0f, 0.0f});
+    EXPECT_TRUE(plan().empty()) << "a closed loop";
+    world.playback.loop = false;
+    animateScale(addBox({0, 0, -9}), {1.0f, 1.5f}, {0.0f, 1.0f});
     EXPECT_TRUE(plan().empty()) << "what grows goes a way";
+    std::vector<float> times;
+    std::vector<float> metres;
+    for (int i = 0; i <= 40; ++i) {
+        times.push_back(1.0f + float(i) / 40.0f);
+        metres.push_back(3.0f * std::sin(0.2f * float(i)));
+    }
+    animateX(addBox({0.0, 0.0, -10.0}), times, metres);
+    EXPECT_TRUE(plan().empty()) << "dense keys of a smooth motion";
 }
 
 TEST_F(ExposureParts, AnAppearanceSplitsByItsShareOfTheLight) {
@@ -102,6 +87,8 @@ TEST_F(ExposureParts, AnAppearanceSplitsByItsShareOfTheLight) {
     // A triangle takes 2 (1/4)^2 of its light in its first quarter.
     mShutter.response.shape = scene::ResponseShape::Triangle;
     expectParts(plan(), {{1.0, 1.25}, {1.25, 2.0}}, {0.125, 0.875});
+    request.instant = 0.5;
+    EXPECT_TRUE(plan().empty()) << "an instant has no parts";
 }
 
 TEST_F(ExposureParts, TheLastPartHoldsTheRasterInstantOrIsTheNearest) {
@@ -127,15 +114,12 @@ TEST_F(ExposureParts, AStepAtAnEndOfTheExposureLeavesOnePartThatDoesNotReachIt) 
     blink(mBox, {0.0f, 2.0f});
     auto parts = plan();
     expectParts(parts, {{1.0, 2.0}}, {1.0});
-    const scene::ExposureMotion motion(world, camera, parts[0].exposure);
     for (const double s : {0.0, 0.5, 1.0})
-        EXPECT_EQ(motion.worldFromObject(mBox, s)[0].x, 0.0) << s << ": it has not come yet";
+        EXPECT_EQ(motionIn(parts[0]).worldFromObject(mBox, s)[0].x, 0.0) << "it has not come yet";
     mRaster = 3.0;
     EXPECT_LE(plan().size(), 1u) << "it was there all the time";
     for (const ExposurePart& part : plan())
-        EXPECT_EQ(
-            scene::ExposureMotion(world, camera, part.exposure).worldFromObject(mBox, 0.0)[0].x, 1.0
-        );
+        EXPECT_EQ(motionIn(part).worldFromObject(mBox, 0.0)[0].x, 1.0);
 }
 
 TEST_F(ExposureParts, NoPartHasAnEntityBetweenItsPlaces) {
@@ -144,19 +128,13 @@ TEST_F(ExposureParts, NoPartHasAnEntityBetweenItsPlaces) {
     world.registry.add(parent, scene::LocalTransform{});
     world.registry.add(mBox, scene::Parent{parent});
     world.playback.loop = true;
-    animate(
-        parent,
-        AnimationPath::Translation,
-        Interpolation::Step,
-        {0.0f, 0.3f, 0.6f},
-        {vec4(-2.0f, 0, 0, 0), vec4(2.0f, 0, 0, 0), vec4(-2.0f, 0, 0, 0)}
-    );
+    animateX(parent, {0.0f, 0.3f, 0.6f}, {-2.0f, 2.0f, -2.0f}, Interpolation::Step);
     const auto parts = plan();
     ASSERT_GE(parts.size(), 3u);
     double light = 0.0;
     for (const ExposurePart& part : parts) {
         light += part.share;
-        const scene::ExposureMotion motion(world, camera, part.exposure);
+        const scene::ExposureMotion motion = motionIn(part);
         const double x = motion.worldFromObject(mBox, 0.5)[3].x;
         EXPECT_EQ(std::abs(x), 2.0);
         EXPECT_EQ(motion.worldFromObject(mBox, 0.0)[3].x, x);
@@ -166,42 +144,11 @@ TEST_F(ExposureParts, NoPartHasAnEntityBetweenItsPlaces) {
 }
 
 TEST_F(ExposureParts, KeysAtNearlyTheSameTimeAreAPartOfTheirOwn) {
-    animate(
-        mBox,
-        AnimationPath::Translation,
-        Interpolation::Linear,
-        {1.0f, 1.5f, 1.5625f, 2.0f},
-        {vec4(0.0f), vec4(0.0f), vec4(3.0f, 0, 0, 0), vec4(3.0f, 0, 0, 0)}
-    );
+    animateX(mBox, {1.0f, 1.5f, 1.5625f, 2.0f}, {0.0f, 0.0f, 3.0f, 3.0f});
     expectParts(plan(), {{1.0, 1.5}, {1.5, 1.5625}, {1.5625, 2.0}}, {0.5, 0.0625, 0.4375});
 }
 
-TEST_F(ExposureParts, DenseKeysOfASmoothMotionAreNoJumps) {
-    std::vector<float> times;
-    std::vector<vec4> values;
-    for (int i = 0; i <= 40; ++i) {
-        times.push_back(1.0f + float(i) / 40.0f);
-        values.emplace_back(3.0f * std::sin(0.2f * float(i)), 0.0f, 0.0f, 0.0f);
-    }
-    animate(
-        mBox, AnimationPath::Translation, Interpolation::Linear, std::move(times), std::move(values)
-    );
-    EXPECT_TRUE(plan().empty());
-}
-
-TEST_F(ExposureParts, AClosedLoopIsNoJump) {
-    world.playback.loop = true;
-    animate(
-        mBox,
-        AnimationPath::Translation,
-        Interpolation::Linear,
-        {0.0f, 0.35f, 0.7f},
-        {vec4(0.0f), vec4(2.0f, 0, 0, 0), vec4(0.0f)}
-    );
-    EXPECT_TRUE(plan().empty());
-}
-
-TEST_F(ExposureParts, InvisibleJumpsAreIgnored) {
+TEST_F(ExposureParts, InvisibleJumpsAndThoseOfEntitiesWithoutAPastAreIgnored) {
     const ecs::Entity outside = addBox({0.0, 0.0, 10.0});
     blink(outside, {0.0f, 1.25f});
     EXPECT_TRUE(plan().empty()) << "behind the camera";
@@ -212,19 +159,17 @@ TEST_F(ExposureParts, InvisibleJumpsAreIgnored) {
     blink(hidden, {0.0f, 1.25f});
     scene::hide(world, hidden);
     EXPECT_TRUE(plan().empty());
-    animate(
-        mBox,
-        AnimationPath::Translation,
-        Interpolation::Step,
-        {0.0f, 1.5f},
-        {vec4(0, 0, -10, 0), vec4(0.01f, 0, -10, 0)}
-    );
+    animateX(mBox, {0.0f, 1.5f}, {0.0f, 0.01f}, Interpolation::Step, 10.0f);
     EXPECT_TRUE(plan().empty()) << "an eighth of a pixel";
+    blink(mBox, {0.0f, 1.25f});
+    EXPECT_EQ(plan().size(), 2u);
+    scene::teleport(world, mBox, {.translation = {0, 0, -10}}, 1.5);
+    EXPECT_TRUE(plan().empty()) << "entities without a past do not move";
 }
 
 TEST_F(ExposureParts, EntitiesShownOrHiddenByAGameAreInTheRightParts) {
     const auto isThereIn = [&](const ExposurePart& part) {
-        const scene::ExposureMotion motion(world, camera, part.exposure);
+        const scene::ExposureMotion motion = motionIn(part);
         const bool atOpen = isDrawable(motion.worldFromObject(mBox, 0.0));
         EXPECT_EQ(isDrawable(motion.worldFromObject(mBox, 1.0)), atOpen);
         EXPECT_FALSE(motion.mayObjectMove(mBox)) << "nothing comes within a part";
@@ -251,36 +196,21 @@ TEST_F(ExposureParts, EntitiesAppearingAtTheFrameTimeAreVisibleForTheWholeExposu
     blink(addBox({1.0, 0.0, -9.0}), {0.0f, 1.5f});
     const auto parts = plan();
     ASSERT_EQ(parts.size(), 2u);
-    for (const ExposurePart& part : parts) {
-        const scene::ExposureMotion motion(world, camera, part.exposure);
-        EXPECT_TRUE(isDrawable(motion.worldFromObject(mBox, 0.0)));
-    }
+    for (const ExposurePart& part : parts)
+        EXPECT_TRUE(isDrawable(motionIn(part).worldFromObject(mBox, 0.0)));
 }
 
 TEST_F(ExposureParts, EntitiesHiddenAtTheFrameTimeAreVisibleUntilThen) {
     scene::hide(world, mBox, 2.0);
     const auto parts = plan();
     expectParts(parts, {{1.0, 2.0}}, {1.0});
-    const scene::ExposureMotion motion(world, camera, parts.at(0).exposure);
-    EXPECT_TRUE(isDrawable(motion.worldFromObject(mBox, 1.0)));
+    EXPECT_TRUE(isDrawable(motionIn(parts.at(0)).worldFromObject(mBox, 1.0)));
     mRaster = 3.0;
     EXPECT_TRUE(plan().empty()) << "hidden all the time";
 }
 
-TEST_F(ExposureParts, EntitiesWithoutAPastDoNotMove) {
-    blink(mBox, {0.0f, 1.25f});
-    scene::teleport(world, mBox, {.translation = {0, 0, -10}}, 1.5);
-    EXPECT_TRUE(plan().empty());
-}
-
 TEST_F(ExposureParts, ACameraThatStepsIsCutIntoPartsUnlessItIsACut) {
-    animate(
-        camera,
-        AnimationPath::Translation,
-        Interpolation::Step,
-        {0.0f, 1.5f},
-        {vec4(0.0f), vec4(0.1f, 0, 0, 0)}
-    );
+    animateX(camera, {0.0f, 1.5f}, {0.0f, 0.1f}, Interpolation::Step);
     expectParts(plan(), {{1.0, 1.5}, {1.5, 2.0}}, {0.5, 0.5});
     mShutter.cuts = {.enabled = true, .degrees = 10.0, .metres = 0.05};
     EXPECT_TRUE(plan().empty()) << "nothing moves in the frame of a cut";
@@ -294,7 +224,7 @@ TEST_F(ExposureParts, ScalesOfTheBlurPlaceJumpsWhereTheyAreSeen) {
     const auto parts = plan();
     expectParts(parts, {{1.0, 1.5}, {1.5, 2.0}}, {0.5, 0.5});
     for (const ExposurePart& part : parts) {
-        const scene::ExposureMotion motion(world, camera, part.exposure);
+        const scene::ExposureMotion motion = motionIn(part);
         EXPECT_EQ(motion.worldFromObject(mBox, 0.0)[0].x, motion.worldFromObject(mBox, 1.0)[0].x);
     }
     mShutter.objectScale = 0.0;
@@ -314,12 +244,6 @@ TEST_F(ExposureParts, TheShortestPartsOfManyJumpsAreJoined) {
         light += part.share;
     }
     EXPECT_NEAR(light, 1.0, 1e-12);
-}
-
-TEST_F(ExposureParts, AnInstantHasNoParts) {
-    blink(mBox, {0.0f, 1.25f});
-    request.instant = 0.5;
-    EXPECT_TRUE(plan().empty());
 }
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -346,16 +270,14 @@ TEST_F(MotionPartsTest, PartsFollowHowFarAMotionIsFromStraight) {
     world.registry.add(box, scene::AngularVelocity{{0.0, 4 * kTurn, 0.0}});
     EXPECT_GE(plan().count, 16u);
     EXPECT_LE(plan().count, kMaxMotionParts);
-}
-
-TEST_F(MotionPartsTest, ACameraThatTurnsOnceIsNotAtRestEither) {
+    world.registry.remove<scene::AngularVelocity>(box);
     world.registry.add(camera, scene::AngularVelocity{{0.0, kTurn, 0.0}});
-    EXPECT_GE(plan().count, 4u);
+    EXPECT_GE(plan().count, 4u) << "a camera that turns once is not at rest either";
 }
 
 TEST_F(MotionPartsTest, ACasterBesideThePictureCountsWithShadowsOnly) {
     // Behind the camera, by 5 m; at the raster instant it has moved by 1 m.
-    world.registry.add(addBox({0.0, 0.0, 5.0}), scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    addMover({0.0, 0.0, 5.0}, {1.0, 0.0, 0.0});
     EXPECT_EQ(plan().casterPx, 0.0);
     request.shadows.mode = ShadowMode::Sharp;
     const double pixel = double{extract().constants.pixelFootprint.x} * std::hypot(5.0, 1.0);

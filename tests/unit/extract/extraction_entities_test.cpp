@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rows, draws and deformed meshes on their way from the world to the tables of a frame.
-#include "engine/extract/timed_tables.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,10 +56,7 @@ TEST_F(Extraction, EntitiesWithoutTrianglesVolumeOrPlaceGetNoRow) {
 }
 
 TEST_F(Extraction, AMirroringTransformIsMarked) {
-    math::Transform mirrored;
-    mirrored.translation = {0.0, 0.0, -5.0};
-    mirrored.scale = {-1.0, 1.0, 1.0};
-    addBox(mirrored);
+    addBox(math::Transform{.translation = {0.0, 0.0, -5.0}, .scale = {-1.0, 1.0, 1.0}});
     addBox({0.0, 0.0, -9.0});
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 2u);
@@ -70,54 +67,43 @@ TEST_F(Extraction, AMirroringTransformIsMarked) {
 }
 
 TEST_F(Extraction, EntitiesOutsideThePictureHaveRowsForRaysButAreNotDrawn) {
-    addBox({0.0, 0.0, 5.0});     // behind
-    addBox({-100.0, 0.0, -5.0}); // left
-    addBox({100.0, 0.0, -5.0});
-    addBox({0.0, 100.0, -5.0});
+    for (const dvec3& outside :
+         {dvec3(0, 0, 5), dvec3(-100, 0, -5), dvec3(100, 0, -5), dvec3(0, 100, -5)})
+        addBox(outside);
     addBox({0.0, -100.0, -5.0});
-    addBox({0.0, 0.0, -5.0}); // in view
+    addBox({0.0, 0.0, -0.9});                      // across the near plane
+    addBox({3.0, 0.0, -3.0});                      // across the right edge
+    addBox({0.0, 0.0, -5.0});                      // in view
+    addBox(math::Transform{.scale = dvec3(50.0)}); // the camera is inside
     const ExtractedFrame frame = extract();
-    EXPECT_EQ(frame.entities.size(), 6u);
-    EXPECT_EQ(entitiesOf(frame.opaque.merge()), (std::vector<uint32_t>{5}));
+    EXPECT_EQ(frame.entities.size(), 9u);
+    std::vector<uint32_t> drawn = entitiesOf(frame.opaque.merge());
+    std::sort(drawn.begin(), drawn.end());
+    EXPECT_EQ(drawn, (std::vector<uint32_t>{5, 6, 7, 8}));
 }
 
-TEST_F(Extraction, EntitiesThatReachIntoThePictureOrSurroundTheCameraAreDrawn) {
-    math::Transform large;
-    large.scale = math::dvec3(50.0); // the camera is inside
-    addBox(large);
-    addBox({3.0, 0.0, -3.0}); // across the right edge
-    addBox({0.0, 0.0, -0.9}); // across the near plane
-    EXPECT_EQ(extract().opaque.size(), 3u);
-}
-
-TEST_F(Extraction, EyeSpaceHasTheWorldsAxesAndTheCamerasOrigin) {
-    math::Transform pose;
-    pose.translation = {1.0, 2.0, 3.0};
-    pose.rotation = glm::angleAxis(0.7, math::dvec3(0.0, 1.0, 0.0));
-    world.registry.get<scene::LocalTransform>(camera).transform = pose;
+TEST_F(Extraction, RowsTakePointsToEyeSpaceWhichHasTheWorldsAxesAndTheCamerasOrigin) {
+    const math::Transform pose{{1.0, 2.0, 3.0}, glm::angleAxis(0.7, dvec3(0.0, 1.0, 0.0))};
+    request.camera = addCamera(pose);
     addBox({1.0, 2.0, -7.0});
-    const shader::EntityRow row = extract().entities.at(0);
-    EXPECT_EQ(row.relWorldFromObject[0], math::vec4(1.0f, 0.0f, 0.0f, 0.0f));
-    EXPECT_EQ(row.relWorldFromObject[1], math::vec4(0.0f, 1.0f, 0.0f, 0.0f));
-    EXPECT_EQ(row.relWorldFromObject[2], math::vec4(0.0f, 0.0f, 1.0f, -10.0f));
-}
-
-TEST_F(Extraction, TheRowsOfASlantedTransformTakePointsToEyeSpace) {
-    math::Transform pose;
-    pose.translation = {1.0, -2.0, -8.0};
-    pose.rotation = glm::angleAxis(1.1, glm::normalize(math::dvec3(1.0, 2.0, 3.0)));
-    pose.scale = {1.0, 2.0, 0.5};
-    addBox(pose);
-    const shader::EntityRow row = extract().entities.at(0);
+    const math::Transform slanted{
+        {1.0, -2.0, -8.0}, glm::angleAxis(1.1, glm::normalize(dvec3(1, 2, 3))), {1.0, 2.0, 0.5}};
+    addBox(slanted);
+    const ExtractedFrame frame = extract();
+    const math::vec4(&rows)[3] = frame.entities.at(0).relWorldFromObject;
+    EXPECT_EQ(rows[0], math::vec4(1.0f, 0.0f, 0.0f, 0.0f));
+    EXPECT_EQ(rows[1], math::vec4(0.0f, 1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(rows[2], math::vec4(0.0f, 0.0f, 1.0f, -10.0f));
     const math::dvec4 point(0.3, -0.4, 0.5, 1.0);
-    const math::dvec4 expected = math::computeMatrix(pose) * point;
+    const math::dvec4 expected =
+        math::computeMatrix(slanted) * point - math::dvec4(pose.translation, 0.0);
+    const math::vec4(&slantedRows)[3] = frame.entities.at(1).relWorldFromObject;
     for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(glm::dot(math::dvec4(row.relWorldFromObject[i]), point), expected[i], 1e-6);
+        EXPECT_NEAR(glm::dot(math::dvec4(slantedRows[i]), point), expected[i], 1e-6);
 }
 
 TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
-    const ecs::Entity box = addBox({0.0, 0.0, -10.0});
-    world.registry.add(box, scene::LinearVelocity{{0.5, 0.0, 0.0}});
+    addMover({0.0, 0.0, -10.0}, {0.5, 0.0, 0.0});
     request.exposure = {2.0, 3.0, 4.0, 0.5};
     const ExtractedFrame frame = extract();
     const shader::EntityRow& row = frame.entities.at(0);
@@ -130,56 +116,37 @@ TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
     EXPECT_NEAR(row.relWorldFromObject[0].w, 1.5f, 1e-6f);
 }
 
-TEST_F(Extraction, AMoverThatEndsWhereItBeganMoves) {
+TEST_F(Extraction, AMoverInViewMovesThePictureEvenIfItEndsWhereItBegan) {
+    addBox({0.0, 0.0, -10.0});
+    addMover({0.0, 0.0, 20.0}, {1.0, 0.0, 0.0});
+    EXPECT_FALSE(extract().moves) << "out of view";
     // There and back by a clip, with the raster instant between the two.
-    const ecs::Entity box = addBox({0.0, 0.0, -20.0});
-    scene::AnimationChannel channel;
-    channel.times = {0.0f, 1.0f, 2.0f};
-    channel.values = {{0, 0, -20, 0}, {1, 0, -20, 0}, {0, 0, -20, 0}};
-    scene::AnimationClip clip;
-    clip.duration = 2.0;
-    clip.channels = {channel};
-    world.assets.clips.push_back(clip);
-    world.registry.add(box, scene::Animated{{{0, 0}}});
+    const auto linear = scene::Interpolation::Linear;
+    animateX(addBox(dvec3(0.0)), {0.0f, 1.0f, 2.0f}, {0.0f, 1.0f, 0.0f}, linear, 20.0f);
     request.exposure = {0.0, 1.0, 2.0, 0.5};
     EXPECT_TRUE(extract().moves);
 }
 
-TEST_F(Extraction, AMoverOutOfViewDoesNotMakeThePictureMove) {
-    addBox({0.0, 0.0, -10.0});
-    const ecs::Entity box = addBox({0.0, 0.0, 20.0});
-    world.registry.add(box, scene::LinearVelocity{{1.0, 0.0, 0.0}});
-    EXPECT_FALSE(extract().moves);
-}
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// The fixture's mesh 0 is a box of [-1, 1]^3; here it has a vertex at each corner, deformed by
-/// joints 0 (below) and 1 (above), and a morph target that lifts the upper ones by 1 m.
+/// Mesh 0 is deformed by joints 0 (below) and 1 (above), or by a morph target.
 class DeformedEntities : public Extraction {
   protected:
-    DeformedEntities() {
-        scene::Primitive box;
-        box.influenceCount = 4;
-        scene::MorphTarget target;
-        for (int corner = 0; corner < 8; ++corner) {
-            const bool above = corner & 2;
-            box.positions.push_back(
-                {corner & 1 ? 1.0f : -1.0f, above ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f}
-            );
-            box.joints.insert(box.joints.end(), {uint16_t(above ? 1 : 0), 0, 0, 0});
-            box.weights.insert(box.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
-            target.positions.push_back({0.0f, above ? 1.0f : 0.0f, 0.0f});
-        }
-        box.morphTargets.push_back(target);
-        layout.geometries[0].vertexCount = 8;
-        layout.reaches.push_back(scene::computePoseReach({&box, 1}));
-        world.assets.skins.push_back({"", {dmat4(1.0), dmat4(1.0)}});
-    }
+    DeformedEntities() { makeDeformable(2); }
 
     ecs::Entity addJoint(const math::Transform& transform) {
         const ecs::Entity joint = world.registry.create();
         world.registry.add(joint, scene::LocalTransform{transform});
+        return joint;
+    }
+
+    ecs::Entity addChild(ecs::Entity parent, const math::Transform& transform) {
+        const ecs::Entity joint = addJoint(transform);
+        world.registry.add(joint, scene::Parent{parent});
+        return joint;
+    }
+
+    ecs::Entity addTurning(const math::Transform& transform) {
+        const ecs::Entity joint = addJoint(transform);
+        world.registry.add(joint, scene::AngularVelocity{{0.0, 2.0, 0.5}});
         return joint;
     }
 
@@ -190,29 +157,12 @@ class DeformedEntities : public Extraction {
     }
 
     ecs::Entity addSkinned(const dvec3& below, const dvec3& above) {
-        return addSkinned(addJoint(at(below)), addJoint(at(above)));
+        return addSkinned(addJoint({below}), addJoint({above}));
     }
 
-    ecs::Entity addMorphed(const dvec3& position, float from, float to) {
-        const ecs::Entity entity = addBox(position);
-        scene::WeightChannel channel;
-        channel.targetCount = 1;
-        channel.times = {0.0f, 1.0f};
-        channel.values = {from, to};
-        world.assets.clips.push_back({"", 1.0, {}, {channel}});
-        const auto clip = static_cast<uint32_t>(world.assets.clips.size() - 1);
-        world.registry.add(entity, scene::MorphWeights{{from}, {{clip, 0}}});
-        return entity;
-    }
-
-    static math::Transform at(const dvec3& position) {
-        math::Transform transform;
-        transform.translation = position;
-        return transform;
-    }
-
-    core::Result<TimedTables> computeTables(ExtractedFrame& frame) {
-        return computeTimedTables(world, layout, request, frame);
+    /// The weight goes from one to the other in the exposure.
+    ecs::Entity addMorphed(float from, float to) {
+        return Extraction::addMorphed({0, 0, -5}, {0.0f, 1.0f}, {from, to});
     }
 };
 
@@ -221,7 +171,7 @@ TEST_F(DeformedEntities, GeometriesOfDeformedEntitiesFollowTheScenesOwn) {
     layout.reaches.push_back(layout.reaches[0]);
     addBox(dvec3(0, 0, -5), two);
     addSkinned({0, 0, -5}, {0, 0, -5});
-    const ecs::Entity both = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    const ecs::Entity both = addMorphed(0.0f, 1.0f);
     world.registry.get<scene::MeshInstance>(both).mesh = two;
     addSkinned({0, 0, -5}, {0, 0, -5});
 
@@ -251,10 +201,10 @@ TEST_F(DeformedEntities, DeformedEntitiesAreCulledByTheirDeformedBounds) {
 }
 
 TEST_F(DeformedEntities, AChangeOfShapeIsMotion) {
-    addMorphed({0, 0, -5}, 0.5f, 0.5f);
+    addMorphed(0.5f, 0.5f);
     EXPECT_FALSE(extract().moves);
     EXPECT_FALSE(extract().deformed.at(0).changes);
-    addMorphed({0, 0, -5}, 0.5f, 0.75f);
+    addMorphed(0.5f, 0.75f);
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.moves);
     EXPECT_TRUE(frame.deformed.at(1).changes);
@@ -265,13 +215,11 @@ TEST_F(DeformedEntities, AChangeOfShapeIsMotion) {
 
 TEST_F(DeformedEntities, AHeldSkeletonThatIsCarriedIsOneShape) {
     for (const double away : {0.0, 0.3, 1.0e4, 1.0e6}) {
-        const ecs::Entity root = addJoint(at({away, -3.0 * away, -5.0}));
+        const ecs::Entity root = addJoint({{away, -3.0 * away, -5.0}});
         world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
-        const ecs::Entity above = addJoint(
-            {.translation = {0.1, 0.2, 0.3}, .rotation = glm::angleAxis(0.7, dvec3(0.6, 0, 0.8))}
+        addSkinned(
+            root, addChild(root, {{0.1, 0.2, 0.3}, glm::angleAxis(0.7, dvec3(0.6, 0, 0.8))})
         );
-        world.registry.add(above, scene::Parent{root});
-        addSkinned(root, above);
         const ExtractedFrame frame = extract();
         EXPECT_FALSE(frame.deformed.back().changes) << away;
         EXPECT_TRUE(frame.moves);
@@ -279,50 +227,39 @@ TEST_F(DeformedEntities, AHeldSkeletonThatIsCarriedIsOneShape) {
 }
 
 TEST_F(DeformedEntities, ASmallBendIsAChangeOfShape) {
-    const ecs::Entity above = addJoint(at({0, 0, -5}));
+    const ecs::Entity above = addJoint({{0, 0, -5}});
     world.registry.add(above, scene::AngularVelocity{{0.0, 0.0, 1.0e-6}});
-    addSkinned(addJoint(at({0, 0, -5})), above);
+    addSkinned(addJoint({{0, 0, -5}}), above);
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.deformed.at(0).changes);
     EXPECT_FALSE(frame.deformed[0].carrier) << "a body in two pieces";
 }
 
-TEST_F(DeformedEntities, AHeldSkeletonThatTurnsIsCarriedByAJoint) {
-    const ecs::Entity root = addJoint(at({1.0e4, 0, -5}));
+TEST_F(DeformedEntities, AHeldSkeletonThatTurnsIsCarriedByAJointUnlessItsScaleIsZero) {
+    const ecs::Entity root = addTurning({{1.0e4, 0, -5}});
     world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
-    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
-    const ecs::Entity above = addJoint({.translation = {0.1, 0.2, 0.3}, .scale = {1.0, 0.5, -2.0}});
-    world.registry.add(above, scene::Parent{root});
-    addSkinned(root, above);
+    addSkinned(root, addChild(root, {.translation = {0.1, 0.2, 0.3}, .scale = {1.0, 0.5, -2.0}}));
+    const ecs::Entity stands = addJoint({{0, 0, -5}});
+    addSkinned(addTurning({.translation = {0, 0, -5}, .scale = dvec3(0.0)}), stands);
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.deformed.at(0).changes) << "in the world's axes";
     EXPECT_TRUE(frame.deformed[0].carrier);
-}
-
-TEST_F(DeformedEntities, AJointOfScaleZeroCarriesNothing) {
-    const ecs::Entity root = addJoint({.translation = {0, 0, -5}, .scale = dvec3(0.0)});
-    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
-    const ecs::Entity above = addJoint(at({0, 0, -5}));
-    addSkinned(root, above);
-    EXPECT_FALSE(extract().deformed.at(0).carrier) << "one joint stands, the other is a point";
-    world.registry.get<scene::LocalTransform>(above).transform.scale = dvec3(0.0);
-    EXPECT_FALSE(extract().deformed.at(0).carrier) << "all is a point";
+    EXPECT_FALSE(frame.deformed.at(1).carrier) << "one joint stands, the other is a point";
+    world.registry.get<scene::LocalTransform>(stands).transform.scale = dvec3(0.0);
+    EXPECT_FALSE(extract().deformed.at(1).carrier) << "all is a point";
 }
 
 TEST_F(DeformedEntities, AHeldSkeletonWhoseWeightsChangeDeforms) {
-    const ecs::Entity root = addJoint(at({0, 0, -5}));
-    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity root = addTurning({{0, 0, -5}});
     const ecs::Entity entity = addSkinned(root, root);
     EXPECT_TRUE(extract().deformed.at(0).carrier);
-    const ecs::Entity other = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    const ecs::Entity other = addMorphed(0.0f, 1.0f);
     world.registry.add(entity, scene::MorphWeights(world.registry.get<scene::MorphWeights>(other)));
     EXPECT_FALSE(extract().deformed.at(0).carrier);
 }
 
 TEST_F(DeformedEntities, AMirroredSkeletonTurnsTheWindingRound) {
-    math::Transform mirrored = at({0, 0, -5});
-    mirrored.scale.x = -1.0;
-    const ecs::Entity root = addJoint(mirrored);
+    const ecs::Entity root = addJoint({.translation = {0, 0, -5}, .scale = {-1, 1, 1}});
     addSkinned(root, root);
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 1u);
@@ -348,86 +285,56 @@ TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
 }
 
 TEST_F(DeformedEntities, AShapeThatIsNotFiniteIsNotDrawn) {
-    math::Transform bad = at({0, 0, -5});
-    bad.scale.y = kNaN;
-    addSkinned(addJoint(at({0, 0, -5})), addJoint(bad));
+    const math::Transform bad{.translation = {0, 0, -5}, .scale = {1.0, kNan, 1.0}};
+    addSkinned(addJoint({{0, 0, -5}}), addJoint(bad));
     EXPECT_TRUE(extract().entities.empty());
-    addMorphed({0, 0, -5}, float(kNaN), float(kNaN));
+    addMorphed(float(kNan), float(kNan));
     EXPECT_TRUE(extract().entities.empty());
-    // Too far away for acceleration structures.
     addSkinned({0, 0, -5}, {1e19, 0, -5});
-    EXPECT_TRUE(extract().entities.empty());
-}
-
-TEST_F(DeformedEntities, AJointThatBendsNothingMayBeAnywhere) {
-    math::Transform bad = at({0, 0, -5});
-    bad.scale.y = kNaN;
-    const ecs::Entity joint = addJoint(at({0, 0, -5}));
-    const ecs::Entity entity = addSkinned(joint, joint);
-    world.registry.get<scene::Skinned>(entity).joints.push_back(addJoint(bad));
-    world.assets.skins[0].jointFromBind.push_back(dmat4(1.0));
-    EXPECT_EQ(extract().entities.size(), 1u);
-}
-
-TEST_F(DeformedEntities, ASkeletonScaledToNothingIsFinite) {
-    math::Transform nothing = at({0, 0, -5});
-    nothing.scale = dvec3(0.0);
-    const ecs::Entity joint = addJoint(nothing);
-    addSkinned(joint, joint);
+    EXPECT_TRUE(extract().entities.empty()) << "too far away for acceleration structures";
+    // A joint that bends nothing may be anywhere, and a skeleton may be scaled to nothing.
+    const ecs::Entity joint = addJoint({.translation = {0, 0, -5}, .scale = dvec3(0.0)});
+    const ecs::Entity entity = addBox(dvec3(0.0));
+    world.registry.add(entity, scene::Skinned{1, {joint, joint, addJoint(bad)}});
+    world.assets.skins.push_back({"", std::vector<dmat4>(3, dmat4(1.0))});
     const ExtractedFrame frame = extract();
-    ASSERT_EQ(frame.entities.size(), 1u);
+    ASSERT_EQ(frame.entityHandles, std::vector<ecs::Entity>{entity});
     EXPECT_FALSE(frame.deformed.at(0).bounds.isEmpty());
 }
 
-TEST_F(DeformedEntities, AShapeThatChangesOnTheSpotIsABoxForRays) {
-    addMorphed({0, 0, -5}, 0.0f, 1.0f);
-    ExtractedFrame frame = extract();
-    const auto tables = computeTables(frame);
-    ASSERT_TRUE(tables.ok());
-    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
-    ASSERT_EQ(tables.value().shapes.size(), 1u);
-    EXPECT_EQ(tables.value().shapes[0].keys.size(), 2u);
-    ASSERT_EQ(tables.value().boxes.size(), 1u);
-    EXPECT_LE(tables.value().boxes[0].min.y, -1.0f);
-    EXPECT_GE(tables.value().boxes[0].max.y, 2.0f) << "the upper vertices are lifted";
-}
-
-TEST_F(DeformedEntities, AStaticShapeIsAnOrdinaryMesh) {
+TEST_F(DeformedEntities, AShapeThatChangesOnTheSpotIsABoxForRaysAndAStaticOneAnOrdinaryMesh) {
     addSkinned({0, 0, -5}, {0, 1, -5});
     addBox(dvec3(0, 0, -7));
+    addMorphed(0.0f, 1.0f);
     ExtractedFrame frame = extract();
-    const auto tables = computeTables(frame);
-    ASSERT_TRUE(tables.ok());
-    EXPECT_TRUE(tables.value().moving.empty());
-    ASSERT_EQ(tables.value().shapes.size(), 1u);
-    EXPECT_EQ(tables.value().shapes[0].row, 0u);
-    EXPECT_FALSE(tables.value().shapes[0].changes());
-    EXPECT_EQ(tables.value().rows.size(), 2u);
+    const TimedTables tables = computeTables(frame);
+    EXPECT_EQ(tables.rows.size(), 3u);
+    EXPECT_EQ(tables.moving, std::vector<uint32_t>{2});
+    ASSERT_EQ(tables.shapes.size(), 2u);
+    EXPECT_EQ(tables.shapes[0].row, 0u);
+    EXPECT_FALSE(tables.shapes[0].changes());
+    EXPECT_EQ(tables.shapes[1].keys.size(), 2u);
+    ASSERT_EQ(tables.boxes.size(), 1u);
+    EXPECT_LE(tables.boxes[0].min.y, -1.0f);
+    EXPECT_GE(tables.boxes[0].max.y, 2.0f) << "the upper vertices are lifted";
 }
 
 TEST_F(DeformedEntities, EntitiesScaledToZeroAtTheRasterInstantMayBeHitBefore) {
-    const ecs::Entity entity = addMorphed({0, 0, -5}, 0.0f, 1.0f);
-    scene::AnimationChannel channel;
-    channel.path = scene::AnimationPath::Scale;
-    channel.times = {0.0f, 1.0f};
-    channel.values = {{1, 1, 1, 0}, {0, 0, 0, 0}};
-    world.assets.clips.push_back({"", 1.0, {channel}, {}});
-    world.registry.add(entity, scene::Animated{{{1, 0}}});
+    animateScale(addMorphed(0.0f, 1.0f), {0.0f, 1.0f}, {1.0f, 0.0f});
     ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.entities.empty());
-    const auto tables = computeTables(frame);
-    ASSERT_TRUE(tables.ok());
+    const TimedTables tables = computeTables(frame);
     ASSERT_EQ(frame.entities.size(), 1u);
-    ASSERT_EQ(tables.value().shapes.size(), 1u);
-    EXPECT_EQ(tables.value().shapes[0].row, 0u);
-    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
+    ASSERT_EQ(tables.shapes.size(), 1u);
+    EXPECT_EQ(tables.shapes[0].row, 0u);
+    EXPECT_EQ(tables.moving, std::vector<uint32_t>{0});
 }
 
 TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
     layout.geometries[0].vertexCount = 20'000'000;
-    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    addMorphed(0.0f, 1.0f);
     ExtractedFrame frame = extract();
-    const auto tables = computeTables(frame);
+    const auto tables = computeTimedTables(world, layout, request, frame);
     ASSERT_FALSE(tables.ok());
     EXPECT_EQ(
         tables.error().message,
@@ -439,9 +346,7 @@ TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
 TEST_F(Extraction, WavesThatNoVertexCanFollowAreRefusedByTheEntitysName) {
     const ecs::Entity flag = addBox(math::dvec3(0, 0, -5));
     world.registry.add(flag, scene::Name{"flag"});
-    scene::VertexWaves waves;
-    waves.exponent = 0.0;
-    world.registry.add(flag, waves);
+    world.registry.add(flag, scene::VertexWaves{.exponent = 0.0});
     const auto frame = extractFrame(world, layout, request);
     ASSERT_FALSE(frame.ok());
     EXPECT_EQ(frame.error().message, "'flag': the waves' exponent is 0, not in [1, 16]");

@@ -4,6 +4,7 @@
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/extract/frame_view.h"
+#include "engine/extract/timed_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,12 @@ namespace shutter::extract {
 
 class Extraction : public testing::Test {
   protected:
-    Extraction() {
+    Extraction() { reset(); }
+
+    void reset() {
+        world = {};
+        layout = {};
+        request = {};
         addMesh(scene::AlphaMode::Opaque, 1);
         camera = addCamera({});
         request.camera = camera;
@@ -54,10 +60,88 @@ class Extraction : public testing::Test {
         return entity;
     }
 
+    ecs::Entity
+    addMover(const math::dvec3& position, const math::dvec3& velocity, uint32_t mesh = 0) {
+        const ecs::Entity entity = addBox(position, mesh);
+        world.registry.add(entity, scene::LinearVelocity{velocity});
+        return entity;
+    }
+
+    /// Goes along the x axis: as far as each key has it, `ahead` of the origin.
+    void animateX(
+        ecs::Entity entity,
+        std::vector<float> times,
+        const std::vector<float>& metres,
+        scene::Interpolation interpolation = scene::Interpolation::Linear,
+        float ahead = 0.0f
+    ) {
+        std::vector<math::vec4> values;
+        for (const float x : metres)
+            values.emplace_back(x, 0.0f, -ahead, 0.0f);
+        const auto path = scene::AnimationPath::Translation;
+        animate(entity, path, interpolation, std::move(times), std::move(values));
+    }
+
+    /// Scales all axes.
+    void animateScale(
+        ecs::Entity entity,
+        std::vector<float> times,
+        const std::vector<float>& factors,
+        scene::Interpolation interpolation = scene::Interpolation::Linear
+    ) {
+        std::vector<math::vec4> values;
+        for (const float factor : factors)
+            values.emplace_back(factor);
+        const auto path = scene::AnimationPath::Scale;
+        animate(entity, path, interpolation, std::move(times), std::move(values));
+    }
+
+    /// Gives mesh 0 a vertex at each corner of its box: the lower ones bend with the first joint of
+    /// a skin, the upper ones with its last, and a morph target lifts these by 1 m.
+    void makeDeformable(uint16_t joints, float lowerLift = 0.0f) {
+        scene::Primitive box;
+        box.influenceCount = 4;
+        scene::MorphTarget target;
+        for (int corner = 0; corner < 8; ++corner) {
+            const bool above = corner & 2;
+            box.positions.push_back(
+                {corner & 1 ? 1.0f : -1.0f, above ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f}
+            );
+            box.joints.insert(box.joints.end(), {uint16_t(above ? joints - 1 : 0), 0, 0, 0});
+            box.weights.insert(box.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+            target.positions.push_back({0.0f, above ? 1.0f : lowerLift, 0.0f});
+        }
+        box.morphTargets.push_back(target);
+        layout.geometries[0].vertexCount = 8;
+        layout.reaches.assign(layout.bounds.size(), scene::computePoseReach({&box, 1}));
+        world.assets.skins.push_back({"", std::vector<math::dmat4>(joints, math::dmat4(1.0))});
+    }
+
+    /// A box of mesh 0 whose morph target's weight is animated.
+    ecs::Entity
+    addMorphed(const math::dvec3& position, std::vector<float> times, std::vector<float> weights) {
+        const ecs::Entity entity = addBox(position);
+        const auto clip = static_cast<uint32_t>(world.assets.clips.size());
+        world.registry.add(entity, scene::MorphWeights{{weights.front()}, {{clip, 0}}});
+        scene::WeightChannel channel;
+        channel.targetCount = 1;
+        channel.times = std::move(times);
+        channel.values = std::move(weights);
+        const double duration = double{channel.times.back()};
+        world.assets.clips.push_back({"", duration, {}, {std::move(channel)}});
+        return entity;
+    }
+
     ExtractedFrame extract() {
         auto frame = extractFrame(world, layout, request);
         EXPECT_TRUE(frame.ok());
         return std::move(frame).value();
+    }
+
+    TimedTables computeTables(ExtractedFrame& frame) const {
+        auto tables = computeTimedTables(world, layout, request, frame);
+        EXPECT_TRUE(tables.ok());
+        return std::move(tables).value();
     }
 
     [[nodiscard]] scene::ExposureMotion motion() const {
@@ -84,6 +168,25 @@ class Extraction : public testing::Test {
     SceneLayout layout;
     ViewRequest request;
     ecs::Entity camera;
+
+  private:
+    /// Adds a channel of a clip of its own.
+    void animate(
+        ecs::Entity entity,
+        scene::AnimationPath path,
+        scene::Interpolation interpolation,
+        std::vector<float> times,
+        std::vector<math::vec4> values
+    ) {
+        scene::AnimationClip clip;
+        clip.duration = double{times.back()};
+        clip.channels.push_back({0, path, interpolation, std::move(times), std::move(values)});
+        const auto index = static_cast<uint32_t>(world.assets.clips.size());
+        world.assets.clips.push_back(std::move(clip));
+        if (!world.registry.has<scene::Animated>(entity))
+            world.registry.add(entity, scene::Animated{});
+        world.registry.get<scene::Animated>(entity).channels.push_back({index, 0});
+    }
 };
 
 } // namespace shutter::extract

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A frame's view from its camera, and entities without a past, hidden, or scaled by an artist.
+// A frame's view from its camera, lights, entities without a past or hidden, and the lens of rays.
 #include "engine/extract/frame_view.h"
-#include "engine/extract/timed_tables.h"
 #include "engine/math/transform.h"
+#include "engine/scene/auto_focus.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/path.h"
@@ -16,16 +16,14 @@
 namespace shutter::extract {
 namespace {
 
-void expectNear(const math::mat4& a, const math::mat4& b, float tolerance) {
+void expectNear(const math::mat4& a, const math::mat4& b) {
+    constexpr float kRounding = 6e-7f; // five units in the last place
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) {
             const float size = std::max(1.0f, std::abs(a[column][row]));
-            EXPECT_NEAR(a[column][row], b[column][row], tolerance * size) << column << " " << row;
+            EXPECT_NEAR(a[column][row], b[column][row], kRounding * size) << column << " " << row;
         }
 }
-
-/// Five units in the last place of a float.
-constexpr float kRounding = 6e-7f;
 
 TEST_F(Extraction, APlaceOfTheLensSeesWhatIsInFocusWhereItWasAndTheRestShifted) {
     constexpr double kFocus = 4.0;
@@ -45,37 +43,28 @@ TEST_F(Extraction, APlaceOfTheLensSeesWhatIsInFocusWhereItWasAndTheRestShifted) 
     }
 }
 
-TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
+TEST_F(Extraction, AMovingCameraSeesTheSkyAndStillPointsFromWhereItIsAtOpenAndClose) {
+    request.exposure = {0.0, 0.0, 1.0, 0.0};
+    const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
+    const auto expectSeen = [&](const math::vec4& ahead, double atClose) {
+        const ExtractedFrame frame = extract();
+        EXPECT_TRUE(frame.moves);
+        const math::vec4 open = frame.constants.clipFromRelWorldOpen * ahead;
+        const math::vec4 close = frame.constants.clipFromRelWorldClose * ahead;
+        EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
+        EXPECT_NEAR(close.x / close.w, atClose * focal, 1e-5);
+    };
     world.registry.add(camera, scene::AngularVelocity{{0.0, 0.1, 0.0}});
-    request.exposure = {0.0, 0.0, 1.0, 0.0};
-    const ExtractedFrame frame = extract();
-    EXPECT_TRUE(frame.moves);
-    const math::vec4 ahead(0.0f, 0.0f, -1.0f, 0.0f);
-    const math::vec4 open = frame.constants.clipFromRelWorldOpen * ahead;
-    const math::vec4 close = frame.constants.clipFromRelWorldClose * ahead;
-    EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
     // Turned to the left by 0.1 rad: the former centre is now at the right.
-    const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
-    EXPECT_NEAR(close.x / close.w, std::tan(0.1) * focal, 1e-5);
-}
-
-TEST_F(Extraction, AMovingCameraSeesAStillPointFromWhereItIsAtOpenAndClose) {
+    expectSeen({0.0f, 0.0f, -1.0f, 0.0f}, std::tan(0.1));
     // Far from the origin, where single precision would lose the displacement.
-    camera = request.camera = addCamera({.translation = {4e6, 0.0, 0.0}});
-    world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
-    request.exposure = {0.0, 0.0, 1.0, 0.0};
-    const ExtractedFrame frame = extract();
-    const math::vec4 ahead(0.0f, 0.0f, -2.0f, 1.0f); // from the eye
-    const math::vec4 open = frame.constants.clipFromRelWorldOpen * ahead;
-    const math::vec4 close = frame.constants.clipFromRelWorldClose * ahead;
-    EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
-    const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
-    EXPECT_NEAR(close.x / close.w, -0.5 * focal, 1e-5);
+    request.camera = addCamera({.translation = {4e6, 0.0, 0.0}});
+    world.registry.add(request.camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    expectSeen({0.0f, 0.0f, -2.0f, 1.0f}, -0.5); // from the eye
 }
 
 TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
-    const ecs::Entity box = addBox({0.0, 0.0, -10.0});
-    world.registry.add(box, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    addMover({0.0, 0.0, -10.0}, {1.0, 0.0, 0.0});
     using scene::ShutterPhase;
     for (const auto& [phase, open, close] :
          {std::tuple{ShutterPhase::Start, 5.0, 5.5},
@@ -95,35 +84,27 @@ TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
 
 TEST_F(Extraction, TheScaleOfACamerasNodeDoesNotCount) {
     addBox({0.5, 0.25, -10.0});
-    math::Transform pose;
-    pose.translation = {0.1, 0.2, 0.3};
-    pose.rotation = glm::angleAxis(0.2, math::dvec3(0.0, 1.0, 0.0));
     auto& transform = world.registry.get<scene::LocalTransform>(camera).transform;
-    transform = pose;
+    transform = {{0.1, 0.2, 0.3}, glm::angleAxis(0.2, math::dvec3(0.0, 1.0, 0.0))};
     const ExtractedFrame plain = extract();
     transform.scale = {3.0, 0.5, 20.0};
     const ExtractedFrame scaled = extract();
-    expectNear(scaled.constants.clipFromRelWorld, plain.constants.clipFromRelWorld, kRounding);
-    expectNear(
-        scaled.entities[0].clipFromObjectRaster, plain.entities[0].clipFromObjectRaster, kRounding
-    );
+    expectNear(scaled.constants.clipFromRelWorld, plain.constants.clipFromRelWorld);
+    expectNear(scaled.entities[0].clipFromObjectRaster, plain.entities[0].clipFromObjectRaster);
     EXPECT_NEAR(glm::length(math::vec3(scaled.constants.forward)), 1.0f, 1e-6f);
 }
 
-TEST_F(Extraction, EyeSpaceGoesToClipSpaceAndBack) {
+TEST_F(Extraction, EyeSpaceGoesToClipSpaceAndBackAndPixelsGrowWithDistance) {
     addBox({0.5, 0.25, -10.0});
     const ExtractedFrame frame = extract();
+    const shader::FrameConstants& constants = frame.constants;
     const math::vec4 centre(0.5f, 0.25f, -10.0f, 1.0f);
-    const math::vec4 clip = frame.constants.clipFromRelWorld * centre;
+    const math::vec4 clip = constants.clipFromRelWorld * centre;
     EXPECT_NEAR(clip.x, (frame.entities[0].clipFromObjectRaster * math::vec4(0, 0, 0, 1)).x, 1e-6f);
     EXPECT_NEAR(clip.w, 10.0f, 1e-5f); // the distance
-    const math::vec4 back = frame.constants.relWorldFromClip * clip;
+    const math::vec4 back = constants.relWorldFromClip * clip;
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(back[i] / back.w, centre[i], 1e-4f);
-}
-
-TEST_F(Extraction, APerspectivePixelGrowsWithDistance) {
-    const shader::FrameConstants constants = extract().constants;
     EXPECT_EQ(constants.sizePx, math::vec2(200.0f, 100.0f));
     EXPECT_NEAR(constants.pixelFootprint.x, 2.0 * std::tan(0.4) / 100.0, 1e-7);
     EXPECT_EQ(constants.pixelFootprint.y, 0.0f);
@@ -227,8 +208,7 @@ TEST_F(Extraction, JitterMovesTheSampleByThatPartOfAPixelAndLeavesMotionAlone) {
     EXPECT_NEAR(moved.y * 50.0f, 0.5f, 1e-4f);
     EXPECT_EQ(jittered.entities[0].motion, shader::kNoMotion);
     EXPECT_FALSE(jittered.moves);
-    const ecs::Entity mover = addBox({0.5, 0.25, -10.0});
-    world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    addMover({0.5, 0.25, -10.0}, {1.0, 0.0, 0.0});
     const shader::EntityMotion motion = motionOf(extract(), 1);
     request.jitterPx = math::dvec2(0.0);
     const shader::EntityMotion expected = motionOf(extract(), 1);
@@ -269,48 +249,35 @@ class JitterOfStatic : public Extraction {
         }
         return shifts;
     }
-
-    static void expectMoved(const math::dvec2& shift) {
-        EXPECT_NEAR(shift.x, -0.25, 1e-4);
-        EXPECT_NEAR(shift.y, 0.5, 1e-4);
-    }
 };
 
-TEST_F(JitterOfStatic, MoversAndDeformersAreSampledAtTheCentre) {
+TEST_F(JitterOfStatic, OnlyWhatMovesOrDeformsIsSampledAtTheCentre) {
     addBox({0.0, 0.0, -8.0});
-    const ecs::Entity mover = addBox({2.0, 0.0, -8.0});
-    world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    addMover({2.0, 0.0, -8.0}, {1.0, 0.0, 0.0});
     // At rest during the exposure, and not at the last frame's raster, half a second before.
     const ecs::Entity parked = addBox({-2.0, 0.0, -8.0});
-    scene::PathMotion path;
-    path.keys = {{.seconds = 1.5}, {.seconds = 1.7}};
-    path.keys[1].position = math::dvec3(-2.0, 1.0, -8.0);
-    path.keys[0].position = math::dvec3(-2.0, 0.0, -8.0);
-    world.registry.add(parked, path);
+    world.registry.add(
+        parked, scene::PathMotion{.keys = {{1.5, {-2.0, 0.0, -8.0}}, {1.7, {-2.0, 1.0, -8.0}}}}
+    );
     const ecs::Entity waving = addBox({0.0, 2.0, -8.0});
     world.registry.add(
         waving, scene::VertexWaves{.waves = {{.displacement = {1, 0, 0}, .hertz = 0.7}}}
     );
-    scene::Primitive box;
-    box.positions = {{-1, -1, -1}, {1, 1, 1}, {1, -1, 1}};
-    layout.reaches.assign(layout.bounds.size(), scene::computePoseReach({&box, 1}));
+    makeDeformable(1);
+    addMover({0.0, -2.0, -8.0}, {0.0, 0.0, 0.0}); // could move and does not
     for (const double exposure : {0.25, 0.0}) {
         setExposure(exposure);
         const std::vector<math::dvec2> shifts = findShiftsPx();
-        ASSERT_EQ(shifts.size(), 4u);
-        EXPECT_EQ(shifts[3], math::dvec2(0.0)) << exposure;
-        expectMoved(shifts[0]);
-        EXPECT_EQ(shifts[1], math::dvec2(0.0)) << exposure;
-        EXPECT_EQ(shifts[2], math::dvec2(0.0)) << exposure;
+        ASSERT_EQ(shifts.size(), 5u);
+        for (const size_t row : {1u, 2u, 3u})
+            EXPECT_EQ(shifts[row], math::dvec2(0.0)) << exposure << ", row " << row;
+        for (const size_t row : {0u, 4u}) {
+            EXPECT_NEAR(shifts[row].x, -0.25, 1e-4);
+            EXPECT_NEAR(shifts[row].y, 0.5, 1e-4);
+        }
     }
     EXPECT_EQ(extract().constants.staticLodBias, -3.0f);
     EXPECT_EQ(extract().constants.lodBias, -1.0f);
-}
-
-TEST_F(JitterOfStatic, AnEntityThatCouldMoveAndDoesNotIsJittered) {
-    const ecs::Entity box = addBox({0.0, 0.0, -8.0});
-    world.registry.add(box, scene::LinearVelocity{{0.0, 0.0, 0.0}});
-    expectMoved(findShiftsPx().at(0));
 }
 
 TEST_F(JitterOfStatic, NothingIsJitteredUnderAMovingCamera) {
@@ -326,13 +293,9 @@ TEST_F(JitterOfStatic, NothingIsJitteredUnderAMovingCamera) {
 TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
     const auto build = [&](const math::dvec3& origin) {
         world = scene::World{};
-        math::Transform pose;
-        pose.translation = origin;
-        pose.rotation = glm::angleAxis(0.3, math::dvec3(0.0, 1.0, 0.0));
-        request.camera = addCamera(pose);
+        request.camera = addCamera({origin, glm::angleAxis(0.3, math::dvec3(0.0, 1.0, 0.0))});
         world.registry.add(request.camera, scene::LinearVelocity{{0.25, 0.0, 0.5}});
-        const ecs::Entity box = addBox(origin + math::dvec3(-3.0, 0.25, -10.0));
-        world.registry.add(box, scene::LinearVelocity{{0.5, 0.125, 0.0}});
+        addMover(origin + math::dvec3(-3.0, 0.25, -10.0), {0.5, 0.125, 0.0});
         return extract();
     };
     const ExtractedFrame near = build(math::dvec3(0.0));
@@ -342,31 +305,25 @@ TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
     const shader::EntityRow& b = far.entities[0];
     const shader::EntityMotion nearMotion = motionOf(near, 0);
     const shader::EntityMotion farMotion = motionOf(far, 0);
-    expectNear(farMotion.clipFromObjectOpen, nearMotion.clipFromObjectOpen, kRounding);
-    expectNear(b.clipFromObjectRaster, a.clipFromObjectRaster, kRounding);
-    expectNear(farMotion.clipFromObjectClose, nearMotion.clipFromObjectClose, kRounding);
-    expectNear(far.constants.clipFromRelWorld, near.constants.clipFromRelWorld, kRounding);
+    expectNear(farMotion.clipFromObjectOpen, nearMotion.clipFromObjectOpen);
+    expectNear(b.clipFromObjectRaster, a.clipFromObjectRaster);
+    expectNear(farMotion.clipFromObjectClose, nearMotion.clipFromObjectClose);
+    expectNear(far.constants.clipFromRelWorld, near.constants.clipFromRelWorld);
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(b.relWorldFromObject[i].w, a.relWorldFromObject[i].w, 2e-6f);
-}
-
-TEST_F(Extraction, AStillSceneFarFromTheOriginDoesNotMove) {
-    math::Transform pose;
-    pose.translation = {1.0e6, 2.0e6, -3.0e6};
-    world.registry.get<scene::LocalTransform>(camera).transform = pose;
-    addBox(pose.translation + math::dvec3(0.0, 0.0, -10.0));
-    EXPECT_FALSE(extract().moves);
+    world = scene::World{};
+    request.camera = addCamera({.translation = {1.0e6, 2.0e6, -3.0e6}});
+    addBox({1.0e6, 2.0e6, -3.0e6 - 10.0});
+    EXPECT_FALSE(extract().moves) << "a static scene";
 }
 
 TEST_F(Extraction, ALightIsWhereItsEntityIsSeenFromTheCamera) {
-    math::Transform pose;
-    pose.translation = {0.0, 0.0, 7.0};
-    world.registry.get<scene::LocalTransform>(camera).transform = pose;
+    request.camera = addCamera({.translation = {0.0, 0.0, 7.0}});
     const ecs::Entity lamp = world.registry.create();
-    math::Transform place;
-    place.translation = {1.0, 2.0, 3.0};
-    place.rotation = glm::angleAxis(glm::radians(90.0), math::dvec3(0.0, 1.0, 0.0));
-    place.scale = math::dvec3(4.0);
+    const math::Transform place{
+        {1.0, 2.0, 3.0},
+        glm::angleAxis(glm::radians(90.0), math::dvec3(0.0, 1.0, 0.0)),
+        math::dvec3(4.0)};
     world.registry.add(lamp, scene::LocalTransform{place});
     scene::Light light;
     light.kind = scene::LightKind::Spot;
@@ -387,17 +344,11 @@ TEST_F(Extraction, ALightIsWhereItsEntityIsSeenFromTheCamera) {
     // Full inside the inner cone, dark from the outer one on.
     EXPECT_NEAR(std::cos(0.2f) * row.spotScale + row.spotOffset, 1.0f, 1e-5f);
     EXPECT_NEAR(std::cos(0.6f) * row.spotScale + row.spotOffset, 0.0f, 1e-5f);
-}
-
-TEST_F(Extraction, ALightWithoutLimitsHasRangeZeroAndASharpConeStaysFinite) {
-    const ecs::Entity lamp = world.registry.create();
-    scene::Light light;
-    light.kind = scene::LightKind::Spot;
-    light.innerConeAngle = light.outerConeAngle = 0.5f;
-    world.registry.add(lamp, light);
-    const shader::LightRow row = extract().lights.at(0);
-    EXPECT_EQ(row.positionRange.w, 0.0f);
-    EXPECT_TRUE(std::isfinite(row.spotScale) && std::isfinite(row.spotOffset));
+    world.registry.get<scene::Light>(lamp
+    ) = {.kind = scene::LightKind::Spot, .innerConeAngle = 0.5f, .outerConeAngle = 0.5f};
+    const shader::LightRow sharp = extract().lights.at(0);
+    EXPECT_EQ(sharp.positionRange.w, 0.0f) << "without limits";
+    EXPECT_TRUE(std::isfinite(sharp.spotScale) && std::isfinite(sharp.spotOffset));
 }
 
 TEST_F(Extraction, RequestedSettingsAreInTheConstants) {
@@ -421,17 +372,7 @@ class ExtractionHistory : public Extraction {
         request.exposure = scene::computeExposure(shutter, 1.0, 1.0);
     }
 
-    ecs::Entity addMover() {
-        const ecs::Entity mover = addBox({0.0, 0.0, -10.0});
-        world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
-        return mover;
-    }
-
-    TimedTables computeTables(ExtractedFrame& frame) const {
-        auto tables = computeTimedTables(world, layout, request, frame);
-        EXPECT_TRUE(tables.ok());
-        return std::move(tables).value();
-    }
+    ecs::Entity addMover() { return Extraction::addMover({0.0, 0.0, -10.0}, {1.0, 0.0, 0.0}); }
 };
 
 TEST_F(ExtractionHistory, RaysMeetWhatAppearsFromThenOnAndWhatIsHiddenUntilThen) {
@@ -467,6 +408,32 @@ TEST_F(ExtractionHistory, HiddenEntitiesHaveNoRowAndNoLight) {
     scene::show(world, mover, 0.7);
     EXPECT_EQ(extract().entities.size(), 2u);
     EXPECT_EQ(extract().lights.size(), 1u);
+}
+
+TEST_F(Extraction, RaysSeeAPullOfTheAutofocusOverTheExposure) {
+    request.usesLens = true;
+    world.registry.add(camera, scene::CameraLens{.fStop = 2.0, .focusDistance = 5.0});
+    const auto computeLens = [&] {
+        ExtractedFrame frame = extract();
+        return computeTables(frame).lens;
+    };
+    const auto unfocused = computeLens();
+    ASSERT_EQ(unfocused.size(), 1u) << "nothing focuses it";
+    EXPECT_FLOAT_EQ(unfocused[0].focus, 0.2f);
+    constexpr size_t kIntervals = 64;
+    const ecs::Entity target = world.registry.create();
+    scene::PathMotion way{{{0.0, {0, 0, -2}}, {1.0, {0, 0, -8}}}, scene::PathInterpolation::Linear};
+    for (scene::PathKey& key : way.keys)
+        key.rotation = math::dquat(1.0, 0.0, 0.0, 0.0);
+    world.registry.add(target, std::move(way));
+    world.registry.add(camera, scene::AutoFocus{target, 0.0});
+    scene::advanceAutoFocus(world, 0.0);
+    scene::advanceAutoFocus(world, 1.0);
+    const auto lens = computeLens();
+    ASSERT_EQ(lens.size(), kIntervals + 1);
+    EXPECT_FLOAT_EQ(lens.front().focus, 1.0f / 2.0f);
+    EXPECT_NEAR(lens[kIntervals / 2].focus, 1.0f / 5.0f, 1e-4f);
+    EXPECT_FLOAT_EQ(lens.back().focus, 1.0f / 8.0f);
 }
 
 } // namespace

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <functional>
 #include <limits>
+#include <ranges>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,9 +37,7 @@ class Particles : public Extraction {
 
     ecs::Entity addEmitter(const dvec3& position, const scene::ParticleEmitter& component) {
         const ecs::Entity entity = world.registry.create();
-        math::Transform transform;
-        transform.translation = position;
-        world.registry.add(entity, scene::LocalTransform{transform});
+        world.registry.add(entity, scene::LocalTransform{{position}});
         world.registry.add(entity, component);
         return entity;
     }
@@ -52,9 +52,9 @@ class Particles : public Extraction {
         return tables.ok() ? std::move(tables).value() : ParticleTables{};
     }
 
-    static bool sameRows(const ParticleTables& a, const ParticleTables& b) {
-        return a.rows.size() == b.rows.size() &&
-               std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(a.rows[0])) == 0;
+    /// A short exposure.
+    void setTime(double seconds) {
+        request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, seconds);
     }
 
     scene::ParticleEmitter emitter;
@@ -62,15 +62,18 @@ class Particles : public Extraction {
 
 TEST_F(Particles, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
     addEmitter({0, 0, -10}, emitter);
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    setTime(2.0);
     const ParticleTables alone = extractAll();
     ASSERT_GT(alone.rows.size(), 20u);
     for (const double seconds : {0.0, 36000.0, 1.0}) {
-        request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, seconds);
+        setTime(seconds);
         (void)extractAll();
     }
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
-    EXPECT_TRUE(sameRows(extractAll(), alone));
+    setTime(2.0);
+    const auto bytesOf = [](const ParticleTables& tables) {
+        return std::as_bytes(std::span(tables.rows));
+    };
+    EXPECT_TRUE(std::ranges::equal(bytesOf(extractAll()), bytesOf(alone)));
 }
 
 TEST_F(Particles, ParticlesAreSortedFarToNearAcrossEmitters) {
@@ -87,15 +90,9 @@ TEST_F(Particles, ParticlesAreSortedFarToNearAcrossEmitters) {
         return -shader::particlePlace(row, tables.emitters[row.emitter], age).z;
     };
     ASSERT_GT(tables.rows.size(), 60u);
-    EXPECT_TRUE(std::is_sorted(
-        tables.rows.begin(),
-        tables.rows.end(),
-        [&](const auto& a, const auto& b) { return depth(a) > depth(b); }
-    ));
-    scene::World other;
-    std::swap(world.registry, other.registry);
-    camera = addCamera({});
-    request.camera = camera;
+    EXPECT_TRUE(std::ranges::is_sorted(tables.rows, std::ranges::greater(), depth));
+    world = scene::World{};
+    request.camera = camera = addCamera({});
     addEmitter({0, 0, -11}, second);
     addEmitter({0, 0, -10}, emitter);
     const ParticleTables permuted = extractAll();
@@ -110,7 +107,7 @@ TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     emitter.inherit = 0.5;
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     world.registry.add(entity, scene::LinearVelocity{dvec3(4.0, 0.0, 0.0)});
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 0.75);
+    setTime(0.75);
     const ParticleTables tables = extractAll();
     ASSERT_EQ(tables.rows.size(), 1u);
     const shader::ParticleRow& row = tables.rows[0];
@@ -129,12 +126,9 @@ TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
     world.registry.add(carrier, scene::LocalTransform{});
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     world.registry.add(entity, scene::Parent{carrier});
-    for (int step = 1; step <= 30; ++step) {
-        math::Transform pose;
-        pose.translation.x = 0.1 * step;
-        scene::recordMotion(world, carrier, pose, 0.1 * step);
-    }
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 3.0);
+    for (int step = 1; step <= 30; ++step)
+        scene::recordMotion(world, carrier, {.translation = {0.1 * step, 0, 0}}, 0.1 * step);
+    setTime(3.0);
     const ParticleTables tables = extractAll();
     ASSERT_EQ(tables.rows.size(), 1u);
     EXPECT_NEAR(tables.rows[0].placeAge.x, 0.5f, 1e-5f);
@@ -142,7 +136,7 @@ TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
 
 TEST_F(Particles, AnExcludedEmitterAndACutAreStatic) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    setTime(2.0);
     EXPECT_GT(extractAll().emitters.at(0).secondsPerExposure, 0.0f);
     world.registry.add(entity, scene::MotionBlur{.exclude = true});
     EXPECT_EQ(extractAll().emitters.at(0).secondsPerExposure, 0.0f);
@@ -156,7 +150,7 @@ TEST_F(Particles, AnExcludedEmitterAndACutAreStatic) {
 
 TEST_F(Particles, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.0);
+    setTime(2.0);
     const size_t all = extractAll().rows.size();
     scene::appear(world, entity, 1.9);
     const size_t recent = extractAll().rows.size();
@@ -166,36 +160,30 @@ TEST_F(Particles, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
     EXPECT_TRUE(extractAll().empty());
 }
 
-TEST_F(Particles, TooManyParticlesAreRefusedByTheEmittersName) {
+TEST_F(Particles, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersName) {
+    const auto expectRefused = [&](const std::string& name, const char* part) {
+        const auto refused = tryExtract(ParticleTime::Exposure);
+        ASSERT_FALSE(refused.ok());
+        const std::string& message = refused.error().message;
+        EXPECT_NE(message.find("'" + name + "'"), std::string::npos) << message;
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    };
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    world.registry.add(entity, scene::Name{"chimney"});
+    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
+    component.texture = 0;
+    expectRefused("chimney", "texture 0");
+    component = emitter;
+    component.lifeSeconds = std::numeric_limits<double>::quiet_NaN();
+    expectRefused("chimney", "lifeSeconds");
     emitter.spans[0].perSecond = 60000.0;
     emitter.lifeSpread = 0.0;
     emitter.lifeSeconds = 1.0;
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.01}, 2.0);
-    addEmitter({0, 0, -10}, emitter);
-    EXPECT_TRUE(tryExtract(ParticleTime::Exposure).ok());
-    const ecs::Entity second = addEmitter({0, 0, -10}, emitter);
-    world.registry.add(second, scene::Name{"geyser"});
-    const auto refused = tryExtract(ParticleTime::Exposure);
-    ASSERT_FALSE(refused.ok());
-    EXPECT_NE(refused.error().message.find("65536"), std::string::npos) << refused.error().message;
-    EXPECT_NE(refused.error().message.find("'geyser'"), std::string::npos);
-}
-
-TEST_F(Particles, BadEmittersAreRefusedByName) {
-    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
-    world.registry.add(entity, scene::Name{"chimney"});
-    const auto expectRefused = [&](const char* part) {
-        const auto refused = tryExtract(ParticleTime::Instant);
-        ASSERT_FALSE(refused.ok());
-        EXPECT_NE(refused.error().message.find("'chimney'"), std::string::npos);
-        EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
-    };
-    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
-    component.texture = 0;
-    expectRefused("texture 0");
     component = emitter;
-    component.lifeSeconds = std::numeric_limits<double>::quiet_NaN();
-    expectRefused("lifeSeconds");
+    request.exposure = scene::computeExposure({.exposureSeconds = 0.01}, 2.0);
+    EXPECT_TRUE(tryExtract(ParticleTime::Exposure).ok());
+    world.registry.add(addEmitter({0, 0, -10}, emitter), scene::Name{"geyser"});
+    expectRefused("geyser", "65536");
 }
 
 TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
@@ -205,7 +193,7 @@ TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
     emitter.bursts = {{.seconds = 1.95, .count = 1}};
     emitter.sizeBirth = emitter.sizeDeath = 1.0;
     emitter.texture = 0;
-    request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, 2.1);
+    setTime(2.1);
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     const auto countParts = [&](double metresInTheExposure) {
         world.registry.get<scene::ParticleEmitter>(entity).velocity.x = metresInTheExposure / 0.1;
@@ -218,12 +206,6 @@ TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
     EXPECT_EQ(countParts(9.0), shader::kMaxParticleParts);
     world.registry.get<scene::ParticleEmitter>(entity).texture = scene::kNone;
     EXPECT_EQ(countParts(9.0), 1u) << "streaks need none";
-}
-
-shader::ParticleRow makeRow(const vec3& velocity) {
-    shader::ParticleRow row{};
-    row.velocityLife = vec4(velocity, 4.0f);
-    return row;
 }
 
 class ParticleInstants : public Particles {
@@ -270,17 +252,8 @@ TEST_F(ParticleInstants, InstantsUnderAMovingCameraCoverAllParticles) {
     EXPECT_FALSE(plan());
 }
 
-TEST_F(ParticleInstants, AdditiveParticlesHaveOnePart) {
-    world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
-    for (auto [entity, component] : world.registry.view<scene::ParticleEmitter>())
-        component.blend = scene::ParticleBlend::Add;
-    ASSERT_TRUE(plan());
-    EXPECT_EQ(plan()->partCount, 1u);
-    EXPECT_EQ(plan()->instantCount, 15u);
-}
-
-TEST_F(ParticleInstants, InstantsAreLimitedByTheMethodAndTheMemory) {
-    world.registry.add(addBox({0, 1, -8}), scene::LinearVelocity{{2, 0, 0}});
+TEST_F(ParticleInstants, InstantsAreLimitedByTheBlendTheMethodAndTheMemory) {
+    addMover({0, 1, -8}, {2, 0, 0});
     LayerLimits limits = kLimits;
     limits.instants = 3;
     ASSERT_TRUE(plan(limits));
@@ -291,10 +264,16 @@ TEST_F(ParticleInstants, InstantsAreLimitedByTheMethodAndTheMemory) {
     limits = kLimits;
     limits.findsInstants = false;
     EXPECT_FALSE(plan(limits));
+    for (auto [entity, component] : world.registry.view<scene::ParticleEmitter>())
+        component.blend = scene::ParticleBlend::Add;
+    ASSERT_TRUE(plan());
+    EXPECT_EQ(plan()->partCount, 1u);
+    EXPECT_EQ(plan()->instantCount, 15u);
 }
 
-TEST(ParticleFormulas, PlacesAgreeWithSmallStepsOfGravityAndDrag) {
-    const shader::ParticleRow row = makeRow({3.0f, 5.0f, -1.0f});
+TEST(ParticleFormulas, PlacesAgreeWithSmallStepsOfGravityAndOfAnyDrag) {
+    shader::ParticleRow row{};
+    row.velocityLife = vec4(3.0f, 5.0f, -1.0f, 4.0f);
     for (const double drag : {0.0, 1e-6, 0.01, 0.3, 2.0, 40.0}) {
         shader::ParticleEmitterRow emitter{};
         emitter.gravityDrag = vec4(0.5f, -9.81f, 0.0f, float(drag));
@@ -312,9 +291,7 @@ TEST(ParticleFormulas, PlacesAgreeWithSmallStepsOfGravityAndDrag) {
         const vec3 speed = shader::particleVelocity(row, emitter, 2.0f);
         EXPECT_LT(glm::distance(dvec3(speed), velocity), 2e-5 * (1.0 + glm::length(velocity)));
     }
-}
-
-TEST(ParticleFormulas, TheSeriesOfSmallDragMeetsTheFormulaOfLarge) {
+    // The series of small drag meets the formula of large.
     for (const float x : {0.499999f, 0.5f}) {
         const vec2 shares = shader::dampedShares(x);
         const double first = -std::expm1(-double(x)) / double(x);
@@ -370,7 +347,7 @@ TEST(ParticleFormulas, AParticleCoversNoPointOutsideItsPath) {
 }
 
 TEST(ParticleFormulas, ALifeIsCutToTheExposure) {
-    shader::ParticleRow row = makeRow({});
+    shader::ParticleRow row{};
     row.placeAge.w = 1.0f;
     row.velocityLife.w = 1.5f;
     shader::ParticleEmitterRow emitter{};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace shutter::extract {
 namespace {
@@ -21,24 +22,37 @@ class ShadowPlanOfScenes : public Extraction {
   protected:
     ShadowPlanOfScenes() {
         request.shadows.mode = ShadowMode::Sharp;
-        math::Transform down;
-        down.rotation = glm::angleAxis(-1.2, dvec3(1, 0, 0));
-        const ecs::Entity sun = world.registry.create();
-        world.registry.add(sun, scene::LocalTransform{down});
-        world.registry.add(sun, scene::Light{.kind = scene::LightKind::Directional});
+        addSun(glm::angleAxis(-1.2, dvec3(1, 0, 0)));
         addBox(dvec3(0, 0, -9)); // begins 8 metres before the camera
         addBox(dvec3(0, 0, -129));
     }
 
+    void addLight(scene::LightKind kind, const math::Transform& place) {
+        const ecs::Entity light = world.registry.create();
+        world.registry.add(light, scene::LocalTransform{place});
+        world.registry.add(light, scene::Light{.kind = kind});
+    }
+
+    void addSun(const math::dquat& turn) {
+        addLight(scene::LightKind::Directional, {.rotation = turn});
+    }
+
+    void addTurning(const math::Transform& place, const dvec3& radiansPerSecond) {
+        world.registry.add(addBox(place), scene::AngularVelocity{radiansPerSecond});
+    }
+
+    ShadowPlan plan() {
+        return planShadows(world, layout, request, FrameView(world, request), extract(), false);
+    }
+
     /// Whether the finest cascade reaches the back of the nearest box.
     bool isNearestInFinest() {
-        const ShadowPlan plan =
-            planShadows(world, layout, request, FrameView(world, request), extract(), false);
-        EXPECT_TRUE(plan.shadows.run) << plan.shadows.reason;
-        EXPECT_GT(plan.maps.size(), 1u);
-        if (plan.maps.empty())
+        const ShadowPlan found = plan();
+        EXPECT_TRUE(found.shadows.run) << found.shadows.reason;
+        EXPECT_GT(found.maps.size(), 1u);
+        if (found.maps.empty())
             return false;
-        const dvec4 clip = plan.maps.front().view.clipFromWorld * dvec4(0, 0, -9.9, 1);
+        const dvec4 clip = found.maps.front().view.clipFromWorld * dvec4(0, 0, -9.9, 1);
         return std::abs(clip.x) < 1.0 && std::abs(clip.y) < 1.0;
     }
 };
@@ -55,103 +69,74 @@ TEST_F(ShadowPlanOfScenes, CascadesBeginWhereTheSceneDoes) {
 TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
     request.shadows.mode = ShadowMode::Blurred;
     request.shadows.mapSize = 2048;
-    for (const double distance : {4.0, 60.0}) {
-        const ecs::Entity mover =
-            addBox(math::Transform{.translation = dvec3(0, 0, -distance), .scale = dvec3(0.5)});
-        world.registry.add(mover, scene::LinearVelocity{dvec3(0.2, 0, 0)});
-    }
-    const ShadowPlan plan =
-        planShadows(world, layout, request, FrameView(world, request), extract(), false);
-    ASSERT_EQ(plan.movers.size(), 2u);
-    const uint32_t first = plan.lights.at(0).firstLayer;
-    const uint32_t near = plan.maps.at(first + plan.movers[0].firstLayer).sizePx;
-    const uint32_t far = plan.maps.at(first + plan.movers[1].firstLayer).sizePx;
+    for (const double distance : {4.0, 60.0})
+        world.registry.add(
+            addBox(math::Transform{.translation = {0, 0, -distance}, .scale = dvec3(0.5)}),
+            scene::LinearVelocity{dvec3(0.2, 0, 0)}
+        );
+    const auto sizeOf = [&](size_t mover) {
+        const ShadowPlan found = plan();
+        EXPECT_EQ(found.movers.size(), 2u);
+        const uint32_t first = found.lights.at(0).firstLayer;
+        return found.maps.at(first + found.movers.at(mover).firstLayer).sizePx;
+    };
     // Its sphere's width, 1.7 metres, is 40 pixels at 4 metres.
-    EXPECT_EQ(near, 128u);
-    EXPECT_EQ(far, 16u);
+    EXPECT_EQ(sizeOf(0), 128u);
+    EXPECT_EQ(sizeOf(1), 16u);
     request.shadows.mapSize = 256;
-    const ShadowPlan small =
-        planShadows(world, layout, request, FrameView(world, request), extract(), false);
-    EXPECT_EQ(small.maps.at(small.lights.at(0).firstLayer + small.movers[0].firstLayer).sizePx, 64u)
-        << "a quarter at most";
+    EXPECT_EQ(sizeOf(0), 64u) << "a quarter at most";
 }
 
 TEST_F(ShadowPlanOfScenes, AMoverAroundTheCameraHasTheLargestLayer) {
-    const ecs::Entity mover = addBox(dvec3(0, 0, 0));
-    world.registry.add(mover, scene::LinearVelocity{dvec3(0.2, 0, 0)});
-    const ShadowPlan plan =
-        planShadows(world, layout, request, FrameView(world, request), extract(), false);
-    ASSERT_EQ(plan.movers.size(), 1u);
-    EXPECT_EQ(plan.maps.back().sizePx, request.shadows.mapSize / 4);
+    addMover(dvec3(0, 0, 0), dvec3(0.2, 0, 0));
+    const ShadowPlan found = plan();
+    ASSERT_EQ(found.movers.size(), 1u);
+    EXPECT_EQ(found.maps.back().sizePx, request.shadows.mapSize / 4);
 }
 
 TEST_F(ShadowPlanOfScenes, FlatMoversHaveFewerLayersThanACube) {
     request.shadows.mode = ShadowMode::Blurred;
-    for (const dvec3 scale : {dvec3(1.0), dvec3(0.9, 0.9, 0.1)}) {
-        const ecs::Entity mover =
-            addBox(math::Transform{.translation = dvec3(0, 0, -9), .scale = scale});
-        world.registry.add(mover, scene::AngularVelocity{dvec3(0, 0, 0.9)});
-    }
-    const ShadowPlan plan =
-        planShadows(world, layout, request, FrameView(world, request), extract(), false);
-    ASSERT_EQ(plan.movers.size(), 2u);
-    EXPECT_LT(plan.movers[1].partCount, plan.movers[0].partCount);
+    for (const dvec3 scale : {dvec3(1.0), dvec3(0.9, 0.9, 0.1)})
+        addTurning({.translation = {0, 0, -9}, .scale = scale}, {0, 0, 0.9});
+    const ShadowPlan found = plan();
+    ASSERT_EQ(found.movers.size(), 2u);
+    EXPECT_LT(found.movers[1].partCount, found.movers[0].partCount);
 }
 
 TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightRequires) {
     request.shadows.mode = ShadowMode::Blurred;
     request.shadows.mapSize = 4096;
-    const ecs::Entity turning =
-        addBox(math::Transform{.translation = dvec3(2, 0, -40), .scale = dvec3(1.0, 1.0, 0.1)});
-    world.registry.add(turning, scene::AngularVelocity{dvec3(0, 0, 0.8)});
-    const auto addLight = [&](const dvec3& direction) {
-        const ecs::Entity light = world.registry.create();
-        const math::dquat turn = glm::quatLookAt(glm::normalize(direction), dvec3(1, 0, 0));
-        world.registry.add(light, scene::LocalTransform{{.rotation = turn}});
-        world.registry.add(light, scene::Light{.kind = scene::LightKind::Directional});
-    };
-    const auto runInstants = [&] {
-        return planShadows(world, layout, request, FrameView(world, request), extract(), false)
-            .movers.at(0)
-            .runInstants;
-    };
+    addTurning({.translation = {2, 0, -40}, .scale = {1.0, 1.0, 0.1}}, {0, 0, 0.8});
     addBox(dvec3(0, -3, 0)); // the scene reaches to the camera
+    const auto runInstants = [&] { return plan().movers.at(0).runInstants; };
     const uint32_t alone = runInstants();
-    addLight({-0.05, -0.01, 1.0}); // which takes the shadow to the camera, and needs a large layer
+    // A light that takes the shadow to the camera, and needs a large layer.
+    addSun(glm::quatLookAt(glm::normalize(dvec3(-0.05, -0.01, 1.0)), dvec3(1, 0, 0)));
     const uint32_t both = runInstants();
     EXPECT_LT(both, alone);
-    addLight({0, -1, 0});
+    addSun(glm::quatLookAt(dvec3(0, -1, 0), dvec3(1, 0, 0)));
     EXPECT_EQ(runInstants(), both);
 }
 
 TEST_F(ShadowPlanOfScenes, MoversHaveRunsBeforeEachLightThatIsFarAway) {
     request.shadows.mode = ShadowMode::Blurred;
     request.shadows.instants = 10;
-    const ecs::Entity lamp = world.registry.create();
-    world.registry.add(lamp, scene::LocalTransform{{.translation = dvec3(0, 30, 0)}});
-    world.registry.add(lamp, scene::Light{.kind = scene::LightKind::Point});
-    const ecs::Entity moon = world.registry.create();
-    world.registry.add(
-        moon, scene::LocalTransform{{.rotation = glm::angleAxis(-0.7, dvec3(1, 0, 0))}}
-    );
-    world.registry.add(moon, scene::Light{.kind = scene::LightKind::Directional});
-    const ecs::Entity turning = addBox(dvec3(2, 0, -9));
-    world.registry.add(turning, scene::AngularVelocity{dvec3(0, 1.0, 0)});
-    const ecs::Entity straight = addBox(dvec3(-2, 0, -12));
-    world.registry.add(straight, scene::LinearVelocity{dvec3(1, 0, 0)});
-    const ShadowPlan plan =
-        planShadows(world, layout, request, FrameView(world, request), extract(), false);
-    ASSERT_EQ(plan.movers.size(), 2u);
-    EXPECT_LT(plan.movers[0].runInstants, plan.movers[1].runInstants);
-    EXPECT_EQ(plan.movers[1].runInstants, shader::kMaxRunInstants);
-    EXPECT_EQ(plan.movers[1].firstRun, 1u + 12u / plan.movers[0].runInstants);
+    addLight(scene::LightKind::Point, {.translation = {0, 30, 0}});
+    addSun(glm::angleAxis(-0.7, dvec3(1, 0, 0))); // the moon
+    addTurning({.translation = {2, 0, -9}}, {0, 1.0, 0});
+    addMover({-2, 0, -12}, {1, 0, 0});
+    const ShadowPlan found = plan();
+    ASSERT_EQ(found.movers.size(), 2u);
+    EXPECT_LT(found.movers[0].runInstants, found.movers[1].runInstants);
+    EXPECT_EQ(found.movers[1].runInstants, shader::kMaxRunInstants);
+    EXPECT_EQ(found.movers[1].firstRun, 1u + 12u / found.movers[0].runInstants);
     uint32_t far = 0;
-    for (const shader::ShadowLight& light : plan.lights)
+    for (const shader::ShadowLight& light : found.lights)
         if (light.firstRun != shader::kNoShadowRun) {
-            EXPECT_EQ(light.firstRun, far++ * plan.runs.size() / 2);
+            EXPECT_EQ(light.firstRun, far++ * found.runs.size() / 2);
         }
     EXPECT_EQ(far, 2u) << "the lamp has no runs, sun and moon have";
-    EXPECT_EQ(plan.runs.size(), 2 * (plan.movers[1].firstRun + 1u + 3u));
+    EXPECT_EQ(found.runs.size(), 2 * (found.movers[1].firstRun + 1u + 3u));
 }
 
 constexpr uint32_t kSize = 512;
@@ -232,28 +217,30 @@ TEST(ShadowViews, ACascadeStaysWhileTheCameraMovesALittleAndThenMovesByWholeTexe
     EXPECT_GT(stayed, 40u * before.size() * 3 / 4);
 }
 
-TEST(ShadowViews, TurningTheCameraLeavesCascadesTheirSize) {
-    CameraSlice camera = makeCamera();
-    const auto before = fitCascades(camera, kToSun, makeBox(500.0), 1000.0, kSize);
-    camera.forward = glm::normalize(dvec3(0.9, 0.2, 0.4));
-    const auto after = fitCascades(camera, kToSun, makeBox(500.0), 1000.0, kSize);
-    ASSERT_EQ(after.size(), before.size());
-    for (size_t i = 0; i < after.size(); ++i)
-        EXPECT_EQ(after[i].texelMetres, before[i].texelMetres);
+/// Sizes of the cascades of a scene of this scale.
+std::vector<double> listTexels(const CameraSlice& camera, double scale = 1.0) {
+    std::vector<double> metres;
+    const math::Bounds scene = makeBox(500.0 * scale);
+    for (const LightView& view : fitCascades(camera, kToSun, scene, 1000.0 * scale, kSize))
+        metres.push_back(view.texelMetres);
+    return metres;
 }
 
-TEST(ShadowViews, CascadesFollowTheScalesOfScenes) {
+TEST(ShadowViews, CascadesFollowTheScalesOfScenesAndNotTheTurnsOfTheCamera) {
+    CameraSlice camera = makeCamera();
+    const std::vector<double> before = listTexels(camera);
+    camera.forward = glm::normalize(dvec3(0.9, 0.2, 0.4));
+    EXPECT_EQ(listTexels(camera), before);
     // Scales near a centimetre and a kilometre that are powers of two, so that nothing else
     // differs.
     for (const double scale : {1.0 / 128.0, 1024.0}) {
-        CameraSlice camera = makeCamera();
-        const auto before = fitCascades(camera, kToSun, makeBox(16.0), 32.0, kSize);
+        camera = makeCamera();
         camera.eye *= scale;
         camera.near *= scale;
-        const auto after = fitCascades(camera, kToSun, makeBox(16.0 * scale), 32.0 * scale, kSize);
+        const std::vector<double> after = listTexels(camera, scale);
         ASSERT_EQ(after.size(), before.size());
         for (size_t i = 0; i < after.size(); ++i)
-            EXPECT_NEAR(after[i].texelMetres / scale, before[i].texelMetres, 1e-9);
+            EXPECT_NEAR(after[i] / scale, before[i], 1e-9);
     }
 }
 
