@@ -59,9 +59,8 @@ TEST(TaaColor, EncodingsComeBack) {
         const vec3 color(value, 0.5f * value, 0.25f * value);
         const vec3 back =
             shader::expand(shader::rgbFromYcocg(shader::ycocgFromRgb(shader::compress(color))));
-        EXPECT_NEAR(back.x, color.x, 0.02f * value + 1e-6f);
-        EXPECT_NEAR(back.y, color.y, 0.02f * value + 1e-6f);
-        EXPECT_NEAR(back.z, color.z, 0.02f * value + 1e-6f);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(back[i], color[i], 0.02f * value + 1e-6f);
     }
 }
 
@@ -125,15 +124,13 @@ TEST(TaaHistory, TheBrightestColorsDoNotOverflowTheSum) {
     EXPECT_NEAR(shader::meanOf(kept).x, 2.0f, 1e-4f);
 }
 
-TEST(TaaHistory, ADoubtfulColorUnlikeItsNeighboursIsClippedAndTrustedLess) {
+TEST(TaaHistory, AColorInDoubtIsClippedToItsNeighboursAndTrustedLess) {
     const Kept ghost = makeKept(1.8f, float(kPlaceCount));
-    const Kept kept = addInDoubt(0.2f, ghost, makeMoments(0.2f, 0.01f));
+    Kept kept = addInDoubt(0.2f, ghost, makeMoments(0.2f, 0.01f));
     EXPECT_NEAR(shader::meanOf(kept).x, 0.2f, 0.02f);
     EXPECT_LE(kept.count, 2.0f);
-}
-
-TEST(TaaHistory, ADoubtfulSettledPixelTakesEachFrame) {
-    Kept kept = makeKept(0.3f, float(kPlaceCount));
+    // A settled pixel in doubt takes each frame.
+    kept = makeKept(0.3f, float(kPlaceCount));
     for (int i = 0; i < 200; ++i)
         kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
     EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 1e-3f);

@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace shutter::tonemap {
-
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -20,8 +19,6 @@ image::Image makeImage(uint32_t channels, const std::vector<float>& values) {
     image.pixels = values;
     return image;
 }
-
-} // namespace
 
 TEST(Display, TheDisplayIsTheShadersOperatorAfterTheGain) {
     const image::Image linear = makeImage(3, {0.1f, 0.2f, 0.3f, 5.0f, 0.0f, 1.0f});
@@ -55,9 +52,8 @@ TEST(Display, InfiniteLightIsWhiteAndLightBelowZeroBlack) {
                 makeImage(1, {kInfinity, -kInfinity, -1.0f, 0.0f}), {op, stops}
             );
             EXPECT_NEAR(display.pixels[0], 1.0f, 1e-3f) << stops;
-            EXPECT_EQ(display.pixels[1], 0.0f);
-            EXPECT_EQ(display.pixels[2], 0.0f);
-            EXPECT_EQ(display.pixels[3], 0.0f);
+            for (size_t i = 1; i < 4; ++i)
+                EXPECT_EQ(display.pixels[i], 0.0f) << i;
         }
 }
 
@@ -76,4 +72,5 @@ TEST(DisplayDeathTest, MotionIsNoColour) {
     EXPECT_DEATH((void)computeDisplayImage(makeImage(2, {0.0f, 0.0f}), {}), "2 channels");
 }
 
+} // namespace
 } // namespace shutter::tonemap

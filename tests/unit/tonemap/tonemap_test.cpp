@@ -9,7 +9,6 @@
 #include <random>
 
 namespace shutter::shader {
-
 namespace {
 
 /// Khronos PBR Neutral as its specification words it, in double precision.
@@ -45,8 +44,6 @@ double srgbByStandard(double x) {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 
-} // namespace
-
 TEST(Tonemap, NeutralIsTheSpecifications) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> stops(-10.0f, 15.0f);
@@ -74,17 +71,12 @@ TEST(Tonemap, NeutralRisesWithTheInputAndDoesNotJump) {
     }
 }
 
-TEST(Tonemap, EncodingIsTheStandards) {
+TEST(Tonemap, EncodingIsTheStandardsAndCutsOffWhatNoDisplayShows) {
     for (int i = 0; i <= 1000; ++i) {
         const float x = float(i) / 1000.0f;
         EXPECT_NEAR(encodeSrgb(x), srgbByStandard(x), 1e-6);
     }
     EXPECT_EQ(encodeSrgb(0.0f), 0.0f);
-    EXPECT_NEAR(encodeSrgb(1.0f), 1.0f, 1e-6f);
-    EXPECT_NEAR(encodeSrgb(0.5f), 0.735357f, 1e-5f);
-}
-
-TEST(Tonemap, EncodingCutsOffWhatNoDisplayShows) {
     EXPECT_EQ(encodeSrgb(-1.0f), 0.0f);
     EXPECT_EQ(encodeSrgb(7.0f), encodeSrgb(1.0f));
     EXPECT_EQ(
@@ -93,4 +85,5 @@ TEST(Tonemap, EncodingCutsOffWhatNoDisplayShows) {
     );
 }
 
+} // namespace
 } // namespace shutter::shader

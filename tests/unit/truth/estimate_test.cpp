@@ -7,7 +7,6 @@
 #include <random>
 
 namespace shutter::shader {
-
 namespace {
 
 /// But for what a quotient may err by.
@@ -15,8 +14,6 @@ void expectColor(const vec3& color, const vec3& expected) {
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(color[i], expected[i], 1e-6f * (1.0f + expected[i])) << i;
 }
-
-} // namespace
 
 TEST(Estimate, RaysGoToTheSetsInTurn) {
     for (uint count = 0; count < 9; ++count) {
@@ -69,4 +66,5 @@ TEST(Estimate, TheErrorsSquareIsTheVarianceOfTheMeanOfStratifiedSets) {
     EXPECT_NEAR(estimated / actual, 1.0, 0.05);
 }
 
+} // namespace
 } // namespace shutter::shader

@@ -7,20 +7,26 @@
 #include <vector>
 
 namespace shutter::truth {
-
 namespace {
 
 using Counts = std::vector<uint32_t>;
 
-} // namespace
+TEST(PlanBatches, BatchesAreAsLargeAsThePictureAllowsAndEndAtEachStop) {
+    struct Case {
+        uint64_t pixels;
+        uint32_t rays;
+        Counts stops;
+        Counts batches;
+    };
 
-TEST(PlanBatches, ASmallPictureIsDoneInOne) {
-    EXPECT_EQ(planBatches(64 * 48, 256, {}), (Counts{256}));
-    EXPECT_EQ(planBatches(1, 65536, {}), (Counts{65536}));
-}
-
-TEST(PlanBatches, ALargeOneTakesARayAtATime) {
-    EXPECT_EQ(planBatches(uint64_t(16384) * 16384, 3, {}), (Counts{1, 1, 1}));
+    const std::vector<Case> cases{
+        {64 * 48, 256, {}, {256}},
+        {1, 65536, {}, {65536}},
+        {uint64_t(16384) * 16384, 3, {}, {1, 1, 1}},
+        {100, 10, {4, 1, 2, 2, 8}, {1, 1, 2, 4, 2}},
+        {100, 10, {10, 20}, {10}}}; // stops at the end or beyond change nothing
+    for (const Case& each : cases)
+        EXPECT_EQ(planBatches(each.pixels, each.rays, each.stops), each.batches) << each.pixels;
 }
 
 TEST(PlanBatches, AllRaysAreTracedAndNoBatchIsLong) {
@@ -34,20 +40,11 @@ TEST(PlanBatches, AllRaysAreTracedAndNoBatchIsLong) {
     }
 }
 
-TEST(PlanBatches, ABatchEndsAtEachStop) {
-    const Counts stops{4, 1, 2, 2, 8};
-    EXPECT_EQ(planBatches(100, 10, stops), (Counts{1, 1, 2, 4, 2}));
-}
-
-TEST(PlanBatches, StopsAtTheEndOrBeyondChangeNothing) {
-    const Counts stops{10, 20};
-    EXPECT_EQ(planBatches(100, 10, stops), (Counts{10}));
-}
-
 TEST(LodBias, TheBoxResolvesWhatItsRaysCan) {
     EXPECT_FLOAT_EQ(computeLodBias(PixelModel::Box, 256), -4.0f);
     EXPECT_FLOAT_EQ(computeLodBias(PixelModel::Box, 1), 0.0f);
     EXPECT_FLOAT_EQ(computeLodBias(PixelModel::Centre, 256), 0.0f);
 }
 
+} // namespace
 } // namespace shutter::truth
