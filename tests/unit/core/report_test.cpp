@@ -35,20 +35,17 @@ TEST(CheckDeathTest, AFailedCheckNamesItsConditionPlaceDetailAndValues) {
     EXPECT_DEATH(SHUTTER_CHECK_EQ(count, 5), "count == 5 \\(3 and 5\\)");
 }
 
-TEST(Result, AResultHasTheErrorItWasMadeFrom) {
-    const Result<int> result = makeError("{}: field '{}' is missing", "a.gltf", "asset");
-    EXPECT_FALSE(result.ok());
-    EXPECT_FALSE(static_cast<bool>(result));
-    EXPECT_EQ(result.error().message, "a.gltf: field 'asset' is missing");
-}
-
-TEST(ResultDeathTest, AccessingAMissingValueOrErrorAborts) {
+TEST(ResultDeathTest, AResultHasTheErrorItWasMadeFromAndAccessToWhatItLacksAborts) {
     Result<int> failed = makeError("no such file");
     EXPECT_DEATH((void)failed.value(), "value\\(\\) of an error: no such file");
     EXPECT_DEATH((void)std::as_const(failed).value(), "no such file");
     EXPECT_DEATH((void)std::move(failed).value(), "no such file");
     EXPECT_DEATH((void)Result<int>(3).error(), "error\\(\\) of a result");
     EXPECT_DEATH((void)Status().error(), "error\\(\\) of a success");
+    const Result<int> result = makeError("{}: field '{}' is missing", "a.gltf", "asset");
+    EXPECT_FALSE(result.ok());
+    EXPECT_FALSE(static_cast<bool>(result));
+    EXPECT_EQ(result.error().message, "a.gltf: field 'asset' is missing");
 }
 
 TEST(Log, WarningsArePrintedAsTheyAreAndInfoOnRequest) {

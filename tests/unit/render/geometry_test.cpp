@@ -60,15 +60,12 @@ TEST(Motion, APointThatWasBehindTheCameraGetsAFiniteMotionInTheRightDirection) {
     EXPECT_TRUE(isFinite(motion.x));
 }
 
-TEST(Motion, MotionIsClampedToTheStorableLengthInItsDirection) {
+TEST(Motion, MotionIsClampedToTheStorableLengthAndNonFiniteMotionCountsAsStatic) {
     const vec3 near(0.0f, 0.0f, 1.0f);
     const vec3 far(3.0e6f, 4.0e6f, 1.0f);
     const vec2 motion = motionFromClip(near, far, near, 0.1f, vec2(100.0f));
     EXPECT_NEAR(length(motion), kMaxMotionPx, 1.0f);
     EXPECT_NEAR(motion.y / motion.x, 4.0f / 3.0f, 1e-4f);
-}
-
-TEST(Motion, NonFiniteMotionCountsAsStatic) {
     const vec3 clip(0.1f, 0.2f, 1.0f);
     for (const float bad : {kQuietNan, kPlusInfinity, -kPlusInfinity})
         for (const vec3& lost : {vec3(bad, 0.0f, 1.0f), vec3(0.0f, bad, 1.0f)}) {
