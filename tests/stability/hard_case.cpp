@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -109,22 +110,42 @@ render::FrameResult draw(Stage& stage, Shot shot, std::string_view method, bool 
 }
 
 void holdEveryMethod(
-    gpu::Device& device, Stage& stage, const Shot& shot, const std::string& label
+    gpu::Device& device,
+    Stage& stage,
+    const Shot& shot,
+    const std::string& label,
+    Phases phases,
+    const Judge& judge
 ) {
+    constexpr std::array kPhases{ShutterPhase::Start, ShutterPhase::Centre, ShutterPhase::End};
     Worst notFinite;
     Worst excursion;
-    for (const auto phase : {ShutterPhase::Start, ShutterPhase::Centre, ShutterPhase::End}) {
-        Shot own = shot;
-        own.phase = phase;
-        Image sharp;
-        for (const std::string_view method : listMethods(device)) {
+    const std::vector<std::string_view> methods = listMethods(device);
+    std::array<Image, kPhases.size()> sharp;
+    const auto isDrawn = [&](size_t method, size_t phase) {
+        if (test::drawsAll())
+            return true;
+        if (phases == Phases::OfShot)
+            return kPhases[phase] == shot.phase;
+        // The sharp picture is what the others of its phase have filtered.
+        return method == 0 || (method + label.size()) % kPhases.size() == phase;
+    };
+    for (size_t i = 0; i < methods.size(); ++i)
+        for (size_t phase = 0; phase < kPhases.size(); ++phase) {
+            if (!isDrawn(i, phase))
+                continue;
+            const std::string_view method = methods[i];
+            Shot own = shot;
+            own.phase = kPhases[phase];
             const render::FrameResult frame = draw(stage, own, method);
-            const std::string where = fmt::format("{}, phase {}", method, int(phase));
+            const std::string where = fmt::format("{}, phase {}", method, int(own.phase));
             notFinite.addNotFinite(frame.color, where);
             for (const auto& [name, picture] : frame.intermediates)
                 notFinite.addNotFinite(picture, where + ", " + name);
+            if (judge)
+                judge(method, own, frame);
             if (method == "sharp")
-                sharp = frame.color;
+                sharp[phase] = frame.color;
             if (game::findMethod(method).value()->family != game::MethodFamily::MotionBlur)
                 continue;
             // What the filter read: the sharp pictures and what rays revealed, or the noisy one.
@@ -133,14 +154,13 @@ void holdEveryMethod(
                 noisy != frame.intermediates.end())
                 inputs.add(noisy->second);
             else
-                inputs.add(sharp);
+                inputs.add(sharp[phase]);
             for (const char* name : {"last", "reveal"})
                 if (const auto read = frame.intermediates.find(name);
                     read != frame.intermediates.end())
                     inputs.add(read->second);
             inputs.addExcursion(excursion, frame.color, where);
         }
-    }
     hold("finite" + label, notFinite);
     hold("inside the range of what was filtered" + label, excursion, 1.0, "half ulp");
 }

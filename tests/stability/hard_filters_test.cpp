@@ -3,7 +3,7 @@
 // that sum to nothing, bright colours, and changes that are too small to see.
 #include "shaders/common/numeric.glsl"
 #include "shaders/render/motion.glsl"
-#include "tests/stability/filter_rig.h"
+#include "tests/stability/hard_case.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +90,7 @@ class HardFilters : public test::GpuTest {
             }
     }
 
-    void holdFiniteAndInRange(const GBuffer& gbuffer, const std::string& label = "") {
+    void holdFiniteAndInRange(const GBuffer& gbuffer, const std::string& label) {
         Worst notFinite;
         Worst excursion;
         Range range;
@@ -104,14 +104,6 @@ class HardFilters : public test::GpuTest {
         hold(
             "inside the range of what was filtered" + label, excursion, kStoredHalfUlps, "half ulp"
         );
-    }
-
-    void holdUnchanged(const GBuffer& gbuffer) {
-        Worst difference;
-        filterAll(gbuffer, [&](const Blurred& blurred, const std::string& method) {
-            difference.addDifference(blurred.color, gbuffer.color, method);
-        });
-        hold("the sharp picture", difference);
     }
 
     /// Pixels that `picks` chooses keep their colours.
@@ -160,20 +152,19 @@ class HardFilters : public test::GpuTest {
     }
 };
 
-TEST_F(HardFilters, ZeroMotionGivesThePictureBack) {
-    holdUnchanged(makeStill());
-}
-
 TEST_F(HardFilters, MotionBelowHalfAPixelGivesThePictureBack) {
-    holdUnchanged(makeMoving(0.499f));
+    for (const GBuffer& gbuffer : {makeStill(), makeMoving(0.499f)}) {
+        Worst difference;
+        filterAll(gbuffer, [&](const Blurred& blurred, const std::string& method) {
+            difference.addDifference(blurred.color, gbuffer.color, method);
+        });
+        hold("the sharp picture", difference);
+    }
 }
 
-TEST_F(HardFilters, MotionUpToTheLongestThatIsStoredIsFiniteAndInRange) {
-    holdFiniteAndInRange(makeMoving(shader::kMaxMotionPx));
-}
-
-TEST_F(HardFilters, ColoursUpToTheEndOfHalfFloatsAreFiniteAndInRange) {
-    holdFiniteAndInRange(makeMoving(30.0f, shader::kMaxColor));
+TEST_F(HardFilters, TheLongestMotionAndTheBrightestColoursAreFiniteAndInRange) {
+    holdFiniteAndInRange(makeMoving(shader::kMaxMotionPx), ", longest motion");
+    holdFiniteAndInRange(makeMoving(30.0f, shader::kMaxColor), ", brightest colours");
 }
 
 TEST_F(HardFilters, MotionThatIsNanOrInfiniteOrHasAnInfiniteLengthCountsAsNone) {
@@ -224,44 +215,44 @@ GBuffer makeSmooth(float frontPx, float backPx) {
     return gbuffer;
 }
 
-/// All motions longer by 1e-4 pixels change no pixel by more than the bound.
-void holdSteps(
-    gpu::Device& device, const std::vector<std::pair<float, float>>& motions, double bound
-) {
-    constexpr float kStepPx = 1e-4f;
-    FilterRig rig(device);
-    for (const Method* method : listFilters()) {
-        MotionBlurSettings settings;
-        settings.method = method;
-        settings.tileSizePx = 24;
-        Worst worst;
-        for (const auto& [front, back] : motions)
-            worst.addDifference(
-                rig.blur(makeSmooth(front, back), settings).color,
-                rig.blur(makeSmooth(front + kStepPx, back + kStepPx), settings).color,
-                fmt::format("motion {} and {} px", front, back)
-            );
-        hold(method->name, worst, bound, "brightness");
-    }
-}
+/// A small change of motion that flips decisions, and by how much a pixel may differ then.
+struct Step {
+    const char* name;
+    std::vector<std::pair<float, float>> motions;
+    double bound;
+};
 
-TEST_F(HardFilters, AMotionLongerByATenthOfAThousandthOfAPixelIsNotSeen) {
+const Step kSteps[] = {
     // Of a filter whose taps are nearest texels, weights change by about the step over a tenth of
     // the motion, 1e-4 of them; the rest is the decision that flips, which texel a tap takes: of
     // the taps, at most two of a pixel are within the step of a border at a time, and each has less
     // than a tenth of the weight. Each then moves the mean by its share of the slope. Both means
     // are stored as half floats, off by less than kStored each.
-    holdSteps(
-        device(),
-        {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}},
-        0.2 * kSlope + 2.0 * kStored
-    );
-}
-
-TEST_F(HardFilters, AMotionThatPassesHalfAPixelIsNotSeen) {
+    {"a longer motion",
+     {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}},
+     0.2 * kSlope + 2.0 * kStored},
     // The decision that a pixel is still flips. The taps are in the pixel's own texel then, whose
     // colour is a half float: the remainder is the rounding of their mean.
-    holdSteps(device(), {{0.47886f, 0.0f}, {0.0f, 0.49022f}}, kStored);
+    {"a motion past half a pixel", {{0.47886f, 0.0f}, {0.0f, 0.49022f}}, kStored},
+};
+
+TEST_F(HardFilters, AMotionLongerByATenthOfAThousandthOfAPixelIsNotSeen) {
+    constexpr float kStepPx = 1e-4f;
+    FilterRig rig(device());
+    for (const auto& [name, motions, bound] : kSteps)
+        for (const Method* method : listFilters()) {
+            MotionBlurSettings settings;
+            settings.method = method;
+            settings.tileSizePx = 24;
+            Worst worst;
+            for (const auto& [front, back] : motions)
+                worst.addDifference(
+                    rig.blur(makeSmooth(front, back), settings).color,
+                    rig.blur(makeSmooth(front + kStepPx, back + kStepPx), settings).color,
+                    fmt::format("motion {} and {} px", front, back)
+                );
+            hold(fmt::format("{}, {}", method->name, name), worst, bound, "brightness");
+        }
 }
 
 } // namespace

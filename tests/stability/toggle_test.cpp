@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Switching effects on and off every frame leaves no trace: no bit in a picture, no memory.
-#include "engine/core/check.h"
 #include "game/shot/picture_drawer.h"
 #include "modules/tonemap/tonemap.h"
 #include "tests/kit/process_use.h"
@@ -17,30 +16,18 @@ namespace {
 constexpr double kExposureSeconds = 0.25;
 constexpr double kTimes[] = {0.0, 0.1};
 
-/// Frames after which the same switches are set again; memory is compared between ends of cycles.
-constexpr uint32_t kCycle = 200;
-constexpr uint32_t kFrames = 10 * kCycle;
+/// How often the same switches are set again; memory is compared between ends of cycles.
+constexpr uint32_t kCycles = 4;
 
-/// The switches.
-struct Switches {
-    const game::MethodInfo* method = nullptr;
-    bool exposed = false;
-    bool toneMapped = false; ///< or the linear picture
-    bool intermediates = false;
-
-    [[nodiscard]] std::string describe() const {
-        return fmt::format(
-            "{}{}{}{}",
-            method->name,
-            exposed ? ", exposed" : "",
-            toneMapped ? ", tone mapped" : "",
-            intermediates ? ", intermediates" : ""
-        );
-    }
+enum Switches : unsigned {
+    kExposed = 1,
+    kToneMapped = 2, ///< or the linear picture
+    kIntermediates = 4,
 };
 
 struct Moment {
-    Switches switches;
+    const game::MethodInfo* method = nullptr;
+    unsigned switches = 0;
     double seconds = 0.0;
 };
 
@@ -56,18 +43,18 @@ class Rig {
     }
 
     render::FrameResult draw(const Moment& moment) {
-        const Switches& switches = moment.switches;
+        const auto [method, switches, seconds] = moment;
         mScene.world.registry.add(
             mScene.camera,
             scene::CameraShutter{
-                switches.exposed ? kExposureSeconds : 0.0, scene::ShutterPhase::Centre}
+                (switches & kExposed) != 0 ? kExposureSeconds : 0.0, scene::ShutterPhase::Centre}
         );
         game::PictureRequest picture =
-            game::makePicture(mScene, mShot, game::makeMethod(*switches.method), moment.seconds);
-        picture.frame.wantColor = !switches.toneMapped;
-        picture.frame.wantDisplay = switches.toneMapped;
-        if (switches.intermediates) {
-            picture.frame.intermediates = game::listIntermediates(*switches.method);
+            game::makePicture(mScene, mShot, game::makeMethod(*method), seconds);
+        picture.frame.wantDisplay = (switches & kToneMapped) != 0;
+        picture.frame.wantColor = !picture.frame.wantDisplay;
+        if ((switches & kIntermediates) != 0) {
+            picture.frame.intermediates = game::listIntermediates(*method);
             picture.frame.intermediates.erase("depth"); // it is in "motion"
         }
         picture.ending = {&mTonemap};
@@ -99,26 +86,30 @@ std::vector<const game::MethodInfo*> listSwitched(const gpu::Device& device) {
     return methods;
 }
 
-/// Every combination of switches and times, the methods by turns, the rest in an order of chance
-/// that is the same in every run; from the beginning again where the cycle is longer.
+/// Each pair of values of any two switches; all combinations with SHUTTER_ALL=1.
+std::vector<unsigned> listCombinations() {
+    if (test::drawsAll())
+        return {0, 1, 2, 3, 4, 5, 6, 7};
+    return {0, kExposed | kToneMapped, kExposed | kIntermediates, kToneMapped | kIntermediates};
+}
+
+/// Every combination with every method and time, the methods by turns, the rest in an order of
+/// chance that is the same in every run.
 std::vector<Moment> listCycle(const gpu::Device& device) {
-    const std::vector<const game::MethodInfo*> methods = listSwitched(device);
     std::minstd_rand random(7);
-    std::vector<std::vector<Moment>> moments;
-    for (const game::MethodInfo* method : methods) {
+    std::vector<std::vector<Moment>> moments; // by method
+    for (const game::MethodInfo* method : listSwitched(device)) {
         std::vector<Moment>& own = moments.emplace_back();
         for (const double seconds : kTimes)
-            for (int bits = 0; bits < 8; ++bits)
-                own.push_back({{method, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}, seconds}
-                );
+            for (const unsigned switches : listCombinations())
+                own.push_back({method, switches, seconds});
         for (size_t i = own.size() - 1; i > 0; --i) // std::shuffle differs between libraries
             std::swap(own[i], own[random() % (i + 1)]);
     }
-    const size_t each = moments.front().size();
-    SHUTTER_CHECK(methods.size() * each <= kCycle, "a cycle is too short for all switches");
     std::vector<Moment> cycle;
-    for (size_t frame = 0; frame < kCycle; ++frame)
-        cycle.push_back(moments[frame % methods.size()][frame / methods.size() % each]);
+    for (size_t turn = 0; turn < moments.front().size(); ++turn)
+        for (const std::vector<Moment>& own : moments)
+            cycle.push_back(own[turn]);
     return cycle;
 }
 
@@ -126,31 +117,21 @@ std::vector<Moment> listCycle(const gpu::Device& device) {
 /// one such renderer at a time: a hundred and more together would take gigabytes, which the C
 /// library keeps once they are free.
 std::vector<uint64_t> drawUntoggled(gpu::Device& device, const std::vector<Moment>& cycle) {
-    std::map<std::string, std::vector<size_t>> framesOf; // by switches
+    std::map<std::pair<const game::MethodInfo*, unsigned>, std::vector<size_t>> framesOf;
     for (size_t frame = 0; frame < cycle.size(); ++frame)
-        framesOf[cycle[frame].switches.describe()].push_back(frame);
+        framesOf[{cycle[frame].method, cycle[frame].switches}].push_back(frame);
     std::vector<uint64_t> hashes(cycle.size());
     for (const auto& [switches, frames] : framesOf) {
         Rig rig(device);
-        std::map<double, uint64_t> known; // by seconds
-        for (const size_t frame : frames) {
-            const Moment& moment = cycle[frame];
-            auto found = known.find(moment.seconds);
-            if (found == known.end())
-                found = known.emplace(moment.seconds, hashFrame(rig.draw(moment))).first;
-            hashes[frame] = found->second;
-        }
+        for (const size_t frame : frames)
+            hashes[frame] = hashFrame(rig.draw(cycle[frame]));
     }
     return hashes;
 }
 
 /// Expects that no more than `bound` was gained for each of `frames`.
 void holdGain(
-    const char* check,
-    uint64_t before,
-    uint64_t after,
-    double bound = 0.0,
-    uint64_t frames = kFrames
+    const char* check, uint64_t before, uint64_t after, double bound = 0.0, uint64_t frames = 1
 ) {
     Worst gain;
     gain.add(after > before ? double(after - before) : 0.0, fmt::format("{} at the end", after));
@@ -159,27 +140,29 @@ void holdGain(
 
 class Toggles : public test::GpuTest {};
 
-TEST_F(Toggles, TwoThousandFramesOfOneRendererAreThoseOfRenderersThatDrewNothingElse) {
+TEST_F(Toggles, FramesOfOneRendererAreThoseOfRenderersThatDrewNothingElse) {
     const std::vector<Moment> cycle = listCycle(device());
     ASSERT_TRUE(test::findResidentBytes()) << "the system does not report the memory of a process";
+    Rig rig(device());
+    std::vector<uint64_t> drawn;
+    for (const Moment& moment : cycle)
+        drawn.push_back(hashFrame(rig.draw(moment)));
+    device().waitIdle();
+    const gpu::LivingObjects first = device().living();
+    // Every shader is compiled by now.
     const uint64_t before = *test::findResidentBytes();
     const std::vector<uint64_t> expected = drawUntoggled(device(), cycle);
     device().collectIdle();
-    // What the C library and the driver keep of a renderer's memory for the next one. All renderers
-    // at a time leave six times as much.
-    holdGain("bytes that renderers leave", before, *test::findResidentBytes(), 384u << 20u, 1);
-    Rig rig(device());
-    gpu::LivingObjects first;
-    uint64_t firstBytes = 0;
-    for (uint32_t frame = 0; frame < kFrames; ++frame) {
-        const Moment& moment = cycle[frame % kCycle];
-        EXPECT_EQ(hashFrame(rig.draw(moment)), expected[frame % kCycle])
-            << frame << ", " << moment.switches.describe();
-        if (frame + 1 != kCycle)
-            continue;
-        device().waitIdle();
-        first = device().living();
-        firstBytes = *test::findResidentBytes();
+    const uint64_t firstBytes = *test::findResidentBytes();
+    // What the C library and the driver keep of a renderer's memory for the next one.
+    holdGain("bytes that renderers leave", before, firstBytes, 384u << 20u);
+    for (size_t turn = 1; turn < kCycles; ++turn)
+        for (const Moment& moment : cycle)
+            drawn.push_back(hashFrame(rig.draw(moment)));
+    for (size_t frame = 0; frame < drawn.size(); ++frame) {
+        const Moment& moment = cycle[frame % cycle.size()];
+        EXPECT_EQ(drawn[frame], expected[frame % cycle.size()])
+            << frame << ", " << moment.method->name << ", " << moment.switches;
     }
     device().waitIdle();
     const gpu::LivingObjects last = device().living();
@@ -189,9 +172,8 @@ TEST_F(Toggles, TwoThousandFramesOfOneRendererAreThoseOfRenderersThatDrewNothing
     holdGain("images", first.images, last.images);
     holdGain("acceleration structures", first.accelerationStructures, last.accelerationStructures);
     // Less than what one more page a frame would come to; allocators and drivers may take some.
-    holdGain(
-        "bytes of the process", firstBytes, *test::findResidentBytes(), 2048.0, kFrames - kCycle
-    );
+    const uint64_t frames = (kCycles - 1) * cycle.size();
+    holdGain("bytes of the process", firstBytes, *test::findResidentBytes(), 2048.0, frames);
 }
 
 } // namespace

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Passes on the device against the same loops in double precision over the same G-buffer.
+// The shaders' functions in single precision, as the device computes them but for its own rounding,
+// against the very same text in double precision; and passes on the device against the same loops
+// in double precision over the same G-buffer.
+#include "double/motion_blur/guertin2014.glsl.h"
+#include "double/motion_blur/jimenez2014.glsl.h"
 #include "double/motion_blur/ray_mask.glsl.h"
 #include "double/motion_blur/taps.glsl.h"
+#include "double/motion_blur/weights.glsl.h"
+#include "double/render/motion.glsl.h"
+#include "double/tonemap/tonemap.glsl.h"
+#include "double/truth/estimate.glsl.h"
 
 #include "modules/motion_blur/passes/ray_mask.h"
-#include "tests/stability/filter_rig.h"
+#include "shaders/motion_blur/guertin2014.glsl"
+#include "shaders/motion_blur/jimenez2014.glsl"
+#include "shaders/motion_blur/ray_mask.glsl"
+#include "shaders/motion_blur/weights.glsl"
+#include "shaders/render/motion.glsl"
+#include "shaders/tonemap/tonemap.glsl"
+#include "shaders/truth/estimate.glsl"
+#include "tests/stability/hard_case.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +34,184 @@ using glm::dvec3;
 using glm::ivec2;
 using image::Image;
 
+constexpr uint32_t kTrials = 200000;
+/// Relative error of one rounding to single precision.
+const double kEpsilon = std::ldexp(1.0, -24);
+
+/// Numbers that both precisions hold exactly.
+class Dice {
+  public:
+    float between(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(mRandom);
+    }
+
+    /// Evenly over the decades.
+    float logarithmic(float low, float high) {
+        return std::exp(between(std::log(low), std::log(high)));
+    }
+
+    glm::vec2 motion(float longest) {
+        return {between(-longest, longest), between(-longest, longest)};
+    }
+
+    glm::vec3 color(float brightest) {
+        const float brightness = logarithmic(1e-3f, brightest);
+        return {between(0.0f, brightness), between(0.0f, brightness), between(0.0f, brightness)};
+    }
+
+  private:
+    std::mt19937 mRandom{17};
+};
+
+/// Errors in roundings of a value of the size `scale`.
+void addRoundings(Worst& worst, double single, double twice, double scale) {
+    worst.add(std::abs(single - twice) / (kEpsilon * scale));
+}
+
+void addRoundings(Worst& worst, const dvec3& single, const dvec3& twice, const dvec3& scale) {
+    for (int c = 0; c < 3; ++c)
+        addRoundings(worst, single[c], twice[c], scale[c]);
+}
+
+void holdRoundings(const Worst& worst, const char* check, double bound) {
+    hold(check, worst, bound, "2^-24");
+}
+
+/// The three filters' weights. A cylinder is steep, 15 / v per pixel, at a place that is rounded
+/// from values of the size v: some 30 roundings for each of two. Cones and the rest add a few, and
+/// the magnification by 30 is relative to that.
+TEST(FunctionPrecision, FilterWeightsInSinglePrecisionAreNearThoseInDouble) {
+    Dice dice;
+    Worst gather;
+    Worst guertin;
+    Worst jimenez;
+    for (uint32_t i = 0; i < kTrials; ++i) {
+        const float z = dice.between(-3.0f, 3.0f);
+        const float distance = dice.between(0.0f, 40.0f);
+        const float sample = dice.logarithmic(0.01f, 300.0f);
+        const float target = dice.logarithmic(0.01f, 300.0f);
+        const float along = dice.between(0.0f, 1.0f);
+        const float magnification = 30.0f;
+        addRoundings(
+            gather,
+            shader::sampleWeight(z, distance, sample, target, magnification),
+            shader64::sampleWeight(z, distance, sample, target, magnification),
+            z >= 1.0f ? magnification : 1.0
+        );
+        addRoundings(
+            guertin,
+            shader::guertinWeight(z, distance, sample, target, along, 1.0f - along),
+            shader64::guertinWeight(z, distance, sample, target, along, 1.0f - along),
+            1.0
+        );
+        addRoundings(
+            jimenez,
+            shader::jimenezWeight(z, distance, sample, target),
+            shader64::jimenezWeight(z, distance, sample, target),
+            std::max({1.0f, distance})
+        );
+    }
+    holdRoundings(gather, "gather's and McGuire's weight", 64.0);
+    holdRoundings(guertin, "Guertin's weight", 64.0);
+    holdRoundings(jimenez, "Jimenez' weight, of the distance", 4.0);
+}
+
+/// Each place in the picture is a quotient, a sum and products: four roundings of its size. A path
+/// that leaves the space in front is cut where it does, a mean of two places that is then divided
+/// by the near plane's distance: its roundings are relative to those places so divided.
+TEST(FunctionPrecision, MotionFromClipSpaceInSinglePrecisionIsNearThatInDouble) {
+    Dice dice;
+    Worst inFront;
+    Worst crossing;
+    const glm::vec2 size(1366.0f, 768.0f);
+    const dvec2 size64(size);
+    const float nearW = 0.05f;
+    for (uint32_t i = 0; i < kTrials; ++i) {
+        const auto place = [&](float w) {
+            return glm::vec3(dice.between(-1.5f, 1.5f) * w, dice.between(-1.5f, 1.5f) * w, w);
+        };
+        const glm::vec3 visible = place(dice.logarithmic(0.06f, 1000.0f));
+        const glm::vec3 open = place(dice.logarithmic(0.06f, 1000.0f));
+        // Every other path ends behind the camera.
+        const bool crosses = i % 2 == 0;
+        glm::vec3 close = place(dice.logarithmic(0.06f, 1000.0f));
+        close.z = crosses ? -close.z : close.z;
+        const dvec2 single(shader::motionFromClip(open, close, visible, nearW, size));
+        const dvec2 twice =
+            shader64::motionFromClip(dvec3(open), dvec3(close), dvec3(visible), nearW, size64);
+        const auto farOut = [&](const glm::vec3& clip) {
+            const double w = crosses ? double(nearW) : double(clip.z);
+            return glm::length(dvec2(clip) / w * size64);
+        };
+        const double scale = std::max({farOut(open), farOut(close), farOut(visible), 1366.0});
+        for (int c = 0; c < 2; ++c)
+            addRoundings(crosses ? crossing : inFront, single[c], twice[c], scale);
+    }
+    holdRoundings(inFront, "motion, of the place in the picture", 4.0);
+    holdRoundings(crossing, "motion that is cut at the near plane", 4.0);
+}
+
+TEST(FunctionPrecision, TheEdgeMeasureInSinglePrecisionIsNearThatInDouble) {
+    Dice dice;
+    Worst worst;
+    for (uint32_t i = 0; i < kTrials; ++i) {
+        const glm::vec2 depth = dice.motion(dice.logarithmic(1e-4f, 1e9f));
+        const glm::vec3 x = dice.color(100.0f);
+        const glm::vec3 y = dice.color(100.0f);
+        addRoundings(
+            worst,
+            shader::edgeMeasure(depth, x, y),
+            shader64::edgeMeasure(dvec2(depth), dvec3(x), dvec3(y)),
+            1.0
+        );
+    }
+    // 1 - 1 / (x + 1) turns the few roundings of x into as many of 1 at most.
+    holdRoundings(worst, "edge measure", 4.0);
+}
+
+/// Bright colours come near 1, where the operator's own differences cancel: errors are relative to
+/// 1 and to the colour it keeps. sRGB's root makes 5.4 of a relative error 2.4.
+TEST(FunctionPrecision, ToneMapAndSrgbInSinglePrecisionAreNearThoseInDouble) {
+    Dice dice;
+    Worst neutral;
+    Worst srgb;
+    for (uint32_t i = 0; i < kTrials; ++i) {
+        const glm::vec3 color = dice.color(65000.0f);
+        const dvec3 twice = shader64::toneMapNeutral(dvec3(color));
+        addRoundings(neutral, shader::toneMapNeutral(color), twice, dvec3(1.0));
+        const float linear = dice.logarithmic(1e-6f, 2.0f);
+        addRoundings(srgb, shader::encodeSrgb(linear), shader64::encodeSrgb(linear), 1.0);
+    }
+    holdRoundings(neutral, "Khronos PBR Neutral", 8.0);
+    holdRoundings(srgb, "sRGB", 4.0);
+}
+
+/// A sum, a product and a reciprocal: three roundings of the brighter of the two sets' means.
+TEST(FunctionPrecision, TheTruthsMeanAndErrorInSinglePrecisionAreNearThoseInDouble) {
+    Dice dice;
+    Worst mean;
+    Worst error;
+    for (uint32_t i = 0; i < kTrials; ++i) {
+        const uint32_t count = 2 + i % 511;
+        const glm::vec3 a = dice.color(65000.0f) * float(count);
+        const glm::vec3 b = dice.color(65000.0f) * float(count);
+        const dvec3 a64(a);
+        const dvec3 b64(b);
+        const dvec3 mean64 = shader64::meanOfSets(a64, b64, count);
+        addRoundings(mean, shader::meanOfSets(a, b, count), mean64, mean64);
+        const dvec3 error64 = shader64::errorOfSets(a64, b64, count);
+        const dvec3 brighter = glm::max(a64, b64) / double(count / 2);
+        addRoundings(error, shader::errorOfSets(a, b, count), error64, brighter);
+    }
+    holdRoundings(mean, "mean of the rays", 3.0);
+    holdRoundings(error, "standard error, of the brighter mean", 3.0);
+}
+
 constexpr int kWidth = 72;
 constexpr int kHeight = 50;
+constexpr int kTile = 16;
+constexpr int kColumns = (kWidth + kTile - 1) / kTile;
+constexpr int kRows = (kHeight + kTile - 1) / kTile;
 constexpr double kSoftExtent = 0.03;
 /// Below this a decision hangs on rounding: which texel a tap takes, which side of a threshold a
 /// value is. Such pixels are left out; a place in pixels is rounded to some 1e-5.
@@ -65,7 +256,7 @@ Layer makeLayer() {
 motion_blur::MotionBlurSettings makeSettings() {
     motion_blur::MotionBlurSettings settings;
     settings.method = &motion_blur::getMethod("gather");
-    settings.tileSizePx = 16;
+    settings.tileSizePx = kTile;
     settings.sampleCount = 15;
     settings.softDepthExtent = float(kSoftExtent);
     settings.softDepthShare = 0.0f;
@@ -120,39 +311,32 @@ class Reader {
 
 /// Longest motion of each tile, and of each tile's neighbourhood.
 struct Tiles {
-    int columns = 0;
-    int rows = 0;
     std::vector<dvec2> longest;
     std::vector<dvec2> dominant;
 };
 
-Tiles findTiles(const Layer& layer, const motion_blur::MotionBlurSettings& settings) {
-    const int tile = int(settings.tileSizePx);
-    const int radius = int(settings.neighbourhoodTiles / 2);
-    Tiles tiles{(kWidth + tile - 1) / tile, (kHeight + tile - 1) / tile, {}, {}};
-    tiles.longest.resize(size_t(tiles.columns) * size_t(tiles.rows));
-    const auto at = [&](int x, int y) { return size_t(y) * size_t(tiles.columns) + size_t(x); };
+size_t tileAt(int x, int y) {
+    return size_t(y / kTile) * kColumns + size_t(x / kTile);
+}
+
+Tiles findTiles(const Layer& layer) {
+    Tiles tiles{std::vector<dvec2>(kColumns * kRows), {}};
     const Reader reader(layer);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-            dvec2& longest = tiles.longest[at(x / tile, y / tile)];
+            dvec2& longest = tiles.longest[tileAt(x, y)];
             longest = shader64::longerMotion(longest, dvec2(reader.motionDepth({x, y})));
         }
     for (dvec2& longest : tiles.longest)
-        longest = shader64::clampMotion(longest, tile);
-    tiles.dominant = tiles.longest;
-    for (int y = 0; y < tiles.rows; ++y)
-        for (int x = 0; x < tiles.columns; ++x)
-            for (int v = std::max(y - radius, 0); v <= std::min(y + radius, tiles.rows - 1); ++v)
-                for (int u = std::max(x - radius, 0); u <= std::min(x + radius, tiles.columns - 1);
-                     ++u)
-                    tiles.dominant[at(x, y)] =
-                        shader64::longerMotion(tiles.dominant[at(x, y)], tiles.longest[at(u, v)]);
+        longest = shader64::clampMotion(longest, kTile);
+    for (int i = 0; i < kColumns * kRows; ++i) {
+        dvec2& dominant = tiles.dominant.emplace_back(tiles.longest[size_t(i)]);
+        for (int j = 0; j < kColumns * kRows; ++j)
+            if (std::abs(i % kColumns - j % kColumns) <= 1 &&
+                std::abs(i / kColumns - j / kColumns) <= 1)
+                dominant = shader64::longerMotion(dominant, tiles.longest[size_t(j)]);
+    }
     return tiles;
-}
-
-dvec2 dominantAt(const Tiles& tiles, int x, int y, int tile) {
-    return tiles.dominant[size_t(y / tile) * size_t(tiles.columns) + size_t(x / tile)];
 }
 
 /// reconstruct.comp without a revealed layer.
@@ -198,7 +382,8 @@ class PassPrecision : public test::GpuTest {};
 TEST_F(PassPrecision, TilesAndGatherAreNearTheSameLoopsInDouble) {
     const Layer layer = makeLayer();
     motion_blur::MotionBlurSettings settings = makeSettings();
-    const Tiles tiles = findTiles(layer, settings);
+    ASSERT_EQ(settings.neighbourhoodTiles, 3u); // findTiles()
+    const Tiles tiles = findTiles(layer);
     FilterRig rig(device());
     Worst tileMotion;
     Worst even;
@@ -208,12 +393,12 @@ TEST_F(PassPrecision, TilesAndGatherAreNearTheSameLoopsInDouble) {
          {std::pair{0.0, 0.0f}, {0.5, 0.0f}, {1.0, 0.0f}, {1.0, 1.0f}}) {
         settings.jitter = jitter;
         const Blurred blurred = rig.blur(layer.gbuffer, settings, share);
-        for (int i = 0; i < tiles.columns * tiles.rows; ++i)
+        for (int i = 0; i < kColumns * kRows; ++i)
             for (const auto& [picture, expected] :
                  {std::pair{&blurred.tiles, &tiles.longest},
                   {&blurred.dominant, &tiles.dominant}}) {
-                const auto x = uint32_t(i % tiles.columns);
-                const auto y = uint32_t(i / tiles.columns);
+                const auto x = uint32_t(i % kColumns);
+                const auto y = uint32_t(i / kColumns);
                 const dvec2 found(picture->at(x, y, 0), picture->at(x, y, 1));
                 const dvec2& wanted = (*expected)[size_t(i)];
                 tileMotion.add(glm::length(found - wanted) / glm::length(wanted) * 0x1p24);
@@ -222,7 +407,7 @@ TEST_F(PassPrecision, TilesAndGatherAreNearTheSameLoopsInDouble) {
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
                 reader.restart();
-                const dvec2 dominant = dominantAt(tiles, x, y, int(settings.tileSizePx));
+                const dvec2 dominant = tiles.dominant[tileAt(x, y)];
                 const dvec3 wanted = gather(reader, dominant, x, y, settings, share);
                 undecided += !reader.isDecided();
                 for (int c = 0; c < 3 && reader.isDecided(); ++c) {
