@@ -9,6 +9,7 @@
 #include "game/demos/random.h"
 #include "game/demos/spin_demo.h"
 #include "game/demos/stage.h"
+#include "tests/support/outcomes.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,12 +34,7 @@ fs::path assets() {
 }
 
 std::unique_ptr<Demo> make(const std::string& name) {
-    auto demo = makeDemo(name, assets());
-    if (!demo) {
-        ADD_FAILURE() << demo.error().message;
-        return nullptr;
-    }
-    return std::move(demo).value();
+    return test::valueOf(makeDemo(name, assets()));
 }
 
 DemoControls randomControls(Random& random) {
@@ -165,10 +161,7 @@ TEST_P(EveryDemo, ASceneWithoutRequiredNodesIsRefused) {
     generator::GltfWriter writer("empty");
     writer.addNode({.name = "nothing"});
     ASSERT_EQ(writer.write(folder / (name + ".glb")), "");
-    const auto refused = makeDemo(name, folder);
-    ASSERT_FALSE(refused.ok());
-    EXPECT_NE(refused.error().message.find(name + ".glb: it has no node '"), std::string::npos)
-        << refused.error().message;
+    test::expectRefused(makeDemo(name, folder), name + ".glb: it has no node '");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -178,16 +171,13 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return std::string(instance.param); }
 );
 
-TEST(Demos, RefuseANameThatIsNone) {
-    const auto refused = makeDemo("chess", assets());
-    ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(refused.error().message, "demo 'chess' is none of: rally, gallery, spin");
-}
-
-TEST(Demos, DemosAreListed) {
+TEST(Demos, DemosAreListedAndOtherNamesRefused) {
     for (const DemoInfo& info : listDemos())
         EXPECT_STREQ(make(info.name)->name(), info.name);
     EXPECT_EQ(listDemos().size(), 3u);
+    EXPECT_EQ(
+        test::errorOf(makeDemo("chess", assets())), "demo 'chess' is none of: rally, gallery, spin"
+    );
 }
 
 /// Plays game/demos/scripts/NAME.json: left stick turns, right stick drives, space is the action.

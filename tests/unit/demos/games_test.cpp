@@ -95,12 +95,9 @@ TEST_F(Gallery, AHitIsWorthTheTargetsSpeedOnceAndKnocksItOver) {
     EXPECT_EQ(target(entity).fall, 0.0) << "it has come in again";
 }
 
-TEST_F(Gallery, AFlyingBallCannotPassThroughAFaceBetweenTwoSteps) {
-    // 24 m/s in a step against the depth in which a ball meets a face.
-    EXPECT_LT(24.0 * kDemoStepSeconds, 2.0 * (0.025 + kBallRadius));
-}
-
 TEST_F(Gallery, BallsBounceLoseEnergyAndArePickedUp) {
+    // 24 m/s in a step against the depth in which a ball meets a face: it cannot pass through one.
+    EXPECT_LT(24.0 * kDemoStepSeconds, 2.0 * (0.025 + kBallRadius));
     const ecs::Entity entity = addBall();
     throwBall(mWorld, {0, 1.5, 0}, {3, 2, -24}, 0.0);
     EXPECT_FALSE(scene::isHidden(mWorld, entity));
@@ -145,7 +142,7 @@ TEST_F(Gallery, TheOldestBallIsThrownAgainIfAllFlyAndNothingHappensWithoutBalls)
     EXPECT_EQ(age(first), 0.0);
 }
 
-TEST(Aim, RecoilKicksAndDecays) {
+TEST(Aim, RecoilKicksAndDecaysAndAimStaysWithinItsBoundsAndTurnsToTheRight) {
     Aim aim;
     kickBack(aim);
     double most = 0.0;
@@ -157,15 +154,12 @@ TEST(Aim, RecoilKicksAndDecays) {
     EXPECT_LT(most, 0.2);
     EXPECT_NEAR(aim.recoil, 0.0, 1e-3);
     EXPECT_NEAR(aim.kick, 0.0, 1e-3);
-}
-
-TEST(Aim, AimStaysWithinItsBoundsAndTurnsToTheRight) {
-    Aim aim;
+    Aim turned;
     for (int i = 0; i < kDemoStepsPerSecond * 3; ++i)
-        stepAim(aim, {.turn = 1.0, .drive = 1.0});
-    EXPECT_EQ(aim.yaw, kMaxYaw);
-    EXPECT_EQ(aim.pitch, kMaxPitch);
-    const dvec3 ahead = aimPose(aim, {}).rotation * dvec3(0, 0, -1);
+        stepAim(turned, {.turn = 1.0, .drive = 1.0});
+    EXPECT_EQ(turned.yaw, kMaxYaw);
+    EXPECT_EQ(turned.pitch, kMaxPitch);
+    const dvec3 ahead = aimPose(turned, {}).rotation * dvec3(0, 0, -1);
     EXPECT_GT(ahead.x, 0.5);
     EXPECT_GT(ahead.y, 0.3);
 }
@@ -178,7 +172,7 @@ void drive(CarState& car, const DemoControls& controls, double seconds, bool onR
         stepCar(car, controls, onRoad);
 }
 
-TEST(RallyCar, FullThrottleReachesItsMostSpeedStraightAhead) {
+TEST(RallyCar, FullThrottleReachesItsMostSpeedStraightAheadAndTheMeadowSlowsIt) {
     CarState car;
     drive(car, kThrottle, 2.0);
     EXPECT_GT(car.speed(), 15.0);
@@ -186,9 +180,6 @@ TEST(RallyCar, FullThrottleReachesItsMostSpeedStraightAhead) {
     EXPECT_NEAR(car.speed(), kCarMostSpeed, 0.5);
     EXPECT_EQ(car.place.x, 0.0);
     EXPECT_LT(car.place.y, -600.0);
-}
-
-TEST(RallyCar, TheMeadowSlowsItAndTheRoadDoesNotStopIt) {
     CarState road;
     CarState meadow;
     drive(road, kThrottle, 10.0);
@@ -273,14 +264,6 @@ RallyTrack makeSquare() {
     );
 }
 
-TEST(RallyTrack, GatesCountInTheirDirectionAndWidthOnly) {
-    const Gate gate{{10, 5}, {0, -1}};
-    EXPECT_TRUE(passesGate(gate, {10, 6}, {10, 4}));
-    EXPECT_FALSE(passesGate(gate, {10, 4}, {10, 6})) << "backwards";
-    EXPECT_FALSE(passesGate(gate, {17, 6}, {17, 4})) << "next to it";
-    EXPECT_FALSE(passesGate(gate, {10, 8}, {10, 6})) << "not there yet";
-}
-
 TEST(RallyTrack, LapsCountAtTheFirstGateWhateverWasMissed) {
     const RallyTrack track = makeSquare();
     const auto pass = [&](RallyProgress& progress, size_t i) {
@@ -301,12 +284,17 @@ TEST(RallyTrack, LapsCountAtTheFirstGateWhateverWasMissed) {
     EXPECT_EQ(missed.gatesPassed, 3);
 }
 
-TEST(RallyTrack, RoadAndMeadowAreDistinguished) {
+TEST(RallyTrack, GatesCountInTheirDirectionAndWidthOnlyAndRoadAndMeadowAreDistinguished) {
     const RallyTrack track = makeSquare();
-    for (const Gate& gate : track.gates())
-        EXPECT_NEAR(track.measureDistance(gate.place), 0.0, 1e-9);
+    for (const Gate& each : track.gates())
+        EXPECT_NEAR(track.measureDistance(each.place), 0.0, 1e-9);
     EXPECT_TRUE(track.isOnRoad({4.0, 0.0}));
     EXPECT_FALSE(track.isOnRoad({30.0, -30.0}));
+    const Gate gate{{10, 5}, {0, -1}};
+    EXPECT_TRUE(passesGate(gate, {10, 6}, {10, 4}));
+    EXPECT_FALSE(passesGate(gate, {10, 4}, {10, 6})) << "backwards";
+    EXPECT_FALSE(passesGate(gate, {17, 6}, {17, 4})) << "next to it";
+    EXPECT_FALSE(passesGate(gate, {10, 8}, {10, 6})) << "not there yet";
 }
 
 TEST(RallyTrack, FencesHoldTheCarAndTakeItsSpeedAcross) {
@@ -348,8 +336,7 @@ TEST(RallyPosts, AHitPostIsThrownAndTheCarPaysForIt) {
     const Post& post = std::as_const(registry).get<Post>(entity);
     EXPECT_TRUE(post.rod.asleep);
     EXPECT_LT(post.rod.place.z, -6.0);
-    const dvec3 axis = post.rod.rotation * dvec3(0, 1, 0);
-    EXPECT_LT(std::abs(axis.y), 0.3) << "it lies";
+    EXPECT_LT(std::abs((post.rod.rotation * dvec3(0, 1, 0)).y), 0.3) << "it lies";
     EXPECT_EQ(
         std::as_const(registry).get<SimulatedPose>(entity).transform.translation, post.rod.place
     );
@@ -393,7 +380,7 @@ TEST(ChaseCamera, TheCameraComesToRestBehindTheCarWithoutSwinging) {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(Ride, SpeedsUpBrakesAndStopsAtItsBounds) {
+TEST(Ride, ARideSpeedsUpBrakesAndStopsAtItsBoundsAndItsGearsTurnTogether) {
     Ride ride;
     for (int i = 0; i < kDemoStepsPerSecond * 10; ++i)
         stepRide(ride, {.drive = 1.0});
@@ -401,23 +388,17 @@ TEST(Ride, SpeedsUpBrakesAndStopsAtItsBounds) {
     for (int i = 0; i < kDemoStepsPerSecond * 10; ++i)
         stepRide(ride, {.drive = -1.0});
     EXPECT_EQ(ride.rate, 0.0);
-}
-
-TEST(Ride, TheRideSlowsDownWithoutDrive) {
-    Ride ride{.rate = 2.0};
-    double before = ride.rate;
+    Ride idle{.rate = 2.0};
+    double before = idle.rate;
     for (int i = 0; i < kDemoStepsPerSecond; ++i) {
-        stepRide(ride, {});
-        ASSERT_LT(ride.rate, before);
-        before = ride.rate;
+        stepRide(idle, {});
+        ASSERT_LT(idle.rate, before);
+        before = idle.rate;
     }
-}
-
-TEST(Ride, GearsTurnTogetherAndNoStepIsHalfATurn) {
-    Ride ride{.rate = 2.0};
-    stepRide(ride, {});
-    EXPECT_NEAR(ride.fan, kFanGear * ride.carousel, 1e-12);
-    EXPECT_NEAR(wrapAngle(ride.mill), kMillGear * ride.carousel, 1e-12);
+    Ride geared{.rate = 2.0};
+    stepRide(geared, {});
+    EXPECT_NEAR(geared.fan, kFanGear * geared.carousel, 1e-12);
+    EXPECT_NEAR(wrapAngle(geared.mill), kMillGear * geared.carousel, 1e-12);
     EXPECT_LT(kMaxRideRate * kFanGear * kDemoStepSeconds, kPi);
 }
 
@@ -492,12 +473,9 @@ TEST(Sparks, StepsThatFollowOneAnotherAreOneSpanAndWhatIsGoneIsDropped) {
     EXPECT_TRUE(dust.spans.empty());
 }
 
-TEST(Sparks, AllThatTheDemosEmitIsValid) {
+TEST(Sparks, AllThatTheDemosEmitIsValidAndSparksOfHitPostsFlyOnce) {
     for (const auto& make : {makeSparks, makeBrakeSparks, makeDust, makeSplinters, makeFlash})
         EXPECT_TRUE(scene::validateEmitter(make(3)).ok());
-}
-
-TEST(Sparks, SparksOfHitPostsFlyOnce) {
     ecs::Registry registry;
     const ecs::Entity post = registry.create();
     registry.add(post, Post{});

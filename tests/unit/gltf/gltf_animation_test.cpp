@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace shutter::gltf {
-
 namespace {
 
 using math::vec4;
@@ -90,41 +89,21 @@ TEST(GltfAnimation, ChannelsOfSeveralClipsComeInClipOrder) {
     EXPECT_EQ(scene.world.playback.activeClips.size(), 2u);
 }
 
-TEST(GltfAnimation, ACubicSplineHasThreeValuesAKey) {
-    const std::vector<float> values(18, 0.5f);
-    const LoadedScene scene = expectLoads(
-        loadClips(makeKeys(kTwoTimes, values, "VEC3"), clip("translation", "CUBICSPLINE"))
-    );
-    EXPECT_EQ(scene.world.assets.clips[0].channels[0].values.size(), 6u);
-    expectRefused(
-        loadClips(makeKeys(kTwoTimes, kTwoVectors, "VEC3"), clip("translation", "CUBICSPLINE")),
-        "2 values for 2 keys, not 6"
-    );
+/// Values of the only channel of the only clip.
+std::vector<vec4> readValues(const GltfFile& file, const std::string& clips) {
+    return expectLoads(loadClips(file, clips)).world.assets.clips.at(0).channels.at(0).values;
 }
 
-TEST(GltfAnimation, RotationsAreNormalizedAlsoFromIntegers) {
-    const LoadedScene floats = expectLoads(
-        loadClips(makeKeys({0.0f}, std::vector<float>{0, 0, 3, 0}, "VEC4"), clip("rotation"))
-    );
-    EXPECT_EQ(floats.world.assets.clips[0].channels[0].values[0], vec4(0, 0, 1, 0));
-    const LoadedScene shorts = expectLoads(loadClips(
-        makeKeys({0.0f}, std::vector<int16_t>{0, 0, -32768, 0}, "VEC4", kShort), clip("rotation")
-    ));
-    EXPECT_EQ(shorts.world.assets.clips[0].channels[0].values[0], vec4(0, 0, -1, 0));
-    const LoadedScene bytes = expectLoads(loadClips(
-        makeKeys({0.0f}, std::vector<int8_t>{127, 0, 0, 0}, "VEC4", kByte), clip("rotation")
-    ));
-    EXPECT_EQ(bytes.world.assets.clips[0].channels[0].values[0], vec4(1, 0, 0, 0));
-}
-
-TEST(GltfAnimation, OnlyTheValuesOfARotationSplineAreNormalized) {
-    const std::vector<float> keys = {0, 0, 0, 0, 0, 0, 0, 2, 5, 5, 5, 5};
-    const LoadedScene scene =
-        expectLoads(loadClips(makeKeys({0.0f}, keys, "VEC4"), clip("rotation", "CUBICSPLINE")));
-    const std::vector<vec4>& values = scene.world.assets.clips[0].channels[0].values;
-    EXPECT_EQ(values[0], vec4(0));
-    EXPECT_EQ(values[1], vec4(0, 0, 0, 1));
-    EXPECT_EQ(values[2], vec4(5));
+TEST(GltfAnimation, RotationsAreNormalizedAlsoFromIntegersButNotTheTangentsOfASpline) {
+    const auto read = [](const auto& values, int type, const char* interpolation = "LINEAR") {
+        return readValues(makeKeys({0.0f}, values, "VEC4", type), clip("rotation", interpolation));
+    };
+    using Values = std::vector<vec4>;
+    EXPECT_EQ(read(std::vector<float>{0, 0, 3, 0}, kFloat), Values{vec4(0, 0, 1, 0)});
+    EXPECT_EQ(read(std::vector<int16_t>{0, 0, -32768, 0}, kShort), Values{vec4(0, 0, -1, 0)});
+    EXPECT_EQ(read(std::vector<int8_t>{127, 0, 0, 0}, kByte), Values{vec4(1, 0, 0, 0)});
+    const std::vector<float> spline = {0, 0, 0, 0, 0, 0, 0, 2, 5, 5, 5, 5};
+    EXPECT_EQ(read(spline, kFloat, "CUBICSPLINE"), (Values{vec4(0), vec4(0, 0, 0, 1), vec4(5)}));
 }
 
 TEST(GltfAnimation, RotationsWithoutABufferViewTurnNothing) {
@@ -138,19 +117,13 @@ TEST(GltfAnimation, RotationsWithoutABufferViewTurnNothing) {
 
 TEST(GltfAnimation, KeysWithoutMeaningAreRefused) {
     const float nan = std::nanf("");
-    const std::vector<float> zeroRotation = {0, 0, 0, 0};
-    expectRefused(
-        loadClips(makeKeys({0.0f}, zeroRotation, "VEC4"), clip("rotation")), "has no length"
-    );
-    const std::vector<float> nanVectors = {1, 2, nan, 4, 5, 6};
-    expectRefused(
-        loadClips(makeKeys(kTwoTimes, nanVectors, "VEC3"), clip("translation")), "holds nan"
-    );
+    const GltfFile still = makeKeys({0.0f}, std::vector<float>{0, 0, 0, 0}, "VEC4");
+    expectRefused(loadClips(still, clip("rotation")), "has no length");
+    const GltfFile broken = makeKeys(kTwoTimes, std::vector<float>{1, 2, nan, 4, 5, 6}, "VEC3");
+    expectRefused(loadClips(broken, clip("translation")), "holds nan");
     for (const std::vector<float>& times : {std::vector<float>{nan, 1}, std::vector<float>{2, 1}}) {
-        expectRefused(
-            loadClips(makeKeys(times, kTwoVectors, "VEC3"), clip("translation")),
-            "animations[0].samplers[0].input"
-        );
+        const GltfFile file = makeKeys(times, kTwoVectors, "VEC3");
+        expectRefused(loadClips(file, clip("translation")), "animations[0].samplers[0].input");
     }
 }
 
@@ -177,41 +150,38 @@ TEST(GltfAnimation, ChannelsThatDriveNothingWeKnowAreIgnored) {
     EXPECT_TRUE(hasWarning(colour, "'colour'"));
 }
 
-TEST(GltfAnimation, AChannelOfANodeOutsideTheSceneDrivesNoEntity) {
+TEST(GltfAnimation, NodesOutsideTheSceneAndOnesThatShearAreNotDriven) {
     const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
-    const LoadedScene scene =
+    const LoadedScene outside =
         expectLoads(loadClips(file, clip("translation", "LINEAR", R"("node":1,)")));
-    EXPECT_EQ(scene.world.assets.clips[0].channels.size(), 1u);
-    const auto animated = scene.world.registry.view<const scene::Animated>();
+    EXPECT_EQ(outside.world.assets.clips[0].channels.size(), 1u);
+    const auto animated = outside.world.registry.view<const scene::Animated>();
     EXPECT_TRUE(animated.begin() == animated.end()) << "an entity is driven";
-}
-
-TEST(GltfAnimation, ANodeWithAShearingMatrixIsNotDriven) {
-    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
-    const LoadedScene scene = expectLoads(loadClips(
+    const LoadedScene sheared = expectLoads(loadClips(
         file,
         clip("translation"),
         R"("scenes":[{"nodes":[0]}],"nodes":[{"matrix":[1,0,0,0,1,1,0,0,0,0,1,0,0,0,0,1]}])"
     ));
-    EXPECT_TRUE(hasWarning(scene, "matrix that shears"));
+    EXPECT_TRUE(hasWarning(sheared, "matrix that shears"));
 }
 
-TEST(GltfAnimation, ReferencesAndTypesAreChecked) {
+TEST(GltfAnimation, ReferencesTypesAndCountsAreChecked) {
     const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
-    expectRefused(
-        loadClips(file, clip("translation", "LINEAR", R"("node":0,)", 1)),
-        "channels[0].sampler is 1, but there is 1 sampler"
+    expectEachRefused(
+        [&](const std::string& clips) { return loadClips(file, clips); },
+        {{clip("translation", "LINEAR", R"("node":0,)", 1),
+          "channels[0].sampler is 1, but there is 1 sampler"},
+         {clip("translation", "LINEAR", R"("node":7,)"), "target.node is 7"},
+         {clip("translation", "BEZIER"), "'BEZIER'"},
+         {clip("rotation"), "output: accessors[1].type"},
+         {clip("translation", "CUBICSPLINE"), "2 values for 2 keys, not 6"}}
     );
-    expectRefused(
-        loadClips(file, clip("translation", "LINEAR", R"("node":7,)")), "target.node is 7"
-    );
-    expectRefused(loadClips(file, clip("translation", "BEZIER")), "'BEZIER'");
-    expectRefused(loadClips(file, clip("rotation")), "output: accessors[1].type");
     const GltfFile raw =
         makeKeys(std::vector<float>{0}, std::vector<uint32_t>{0, 0, 0}, "VEC3", kUnsignedInt);
     expectRefused(loadClips(raw, clip("translation")), "componentType 5125");
+    const GltfFile spline = makeKeys(kTwoTimes, std::vector<float>(18, 0.5f), "VEC3");
+    EXPECT_EQ(readValues(spline, clip("translation", "CUBICSPLINE")).size(), 6u);
 }
 
 } // namespace
-
 } // namespace shutter::gltf

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gltf/gltf_loader.h"
+#include "tests/support/outcomes.h"
 #include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>
@@ -10,16 +11,15 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
+#include <initializer_list>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace shutter::gltf {
 
+using test::expectRefused;
 using test::TempFolder;
 
 inline constexpr int kByte = 5120;
@@ -94,6 +94,11 @@ class GltfFile {
         return loadGltf(folder.write("test.gltf", json(members)));
     }
 
+    /// Of a file that loads.
+    [[nodiscard]] LoadedScene read(const std::string& members) const {
+        return test::valueOf(load(members));
+    }
+
   private:
     std::vector<char> mBin;
     std::vector<std::string> mViews;
@@ -105,16 +110,24 @@ inline core::Result<LoadedScene> loadMembers(const std::string& members) {
     return GltfFile().load(members);
 }
 
-/// Expects success and returns the scene.
-inline LoadedScene expectLoads(core::Result<LoadedScene> result) {
-    EXPECT_TRUE(result) << result.error().message;
-    return result ? std::move(result).value() : LoadedScene{};
+inline LoadedScene readMembers(const std::string& members) {
+    return GltfFile().read(members);
 }
 
-/// Expects an error whose sentence holds `part`.
-inline void expectRefused(const core::Result<LoadedScene>& result, std::string_view part) {
-    ASSERT_FALSE(result) << "it loaded";
-    EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+/// Expects success and returns the scene.
+inline LoadedScene expectLoads(core::Result<LoadedScene> result) {
+    return test::valueOf(std::move(result));
+}
+
+/// Expects that load(change) is refused by the sentence beside it, for each change.
+template <class Load>
+void expectEachRefused(
+    const Load& load, std::initializer_list<std::pair<std::string, const char*>> changes
+) {
+    for (const auto& [change, sentence] : changes) {
+        SCOPED_TRACE(change);
+        expectRefused(load(change), sentence);
+    }
 }
 
 /// The first primitive of mesh 0.
@@ -129,9 +142,6 @@ inline bool hasWarning(const LoadedScene& scene, std::string_view part) {
     }
     return false;
 }
-
-/// One entity that draws mesh 0.
-inline const std::string kOneNode = R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}])";
 
 /// A unit right triangle in the xy plane, facing +Z.
 inline const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
