@@ -32,11 +32,6 @@ struct CheckScene {
     void (*prepare)(scene::World& world) = nullptr; ///< moves what the file has at rest
 };
 
-struct CheckedShot {
-    game::ShotOptions options;
-    game::Shot shot;
-};
-
 inline constexpr uint32_t kCheckedWidth = 192;
 inline constexpr uint32_t kCheckedHeight = 108;
 inline constexpr size_t kCheckedPixels = size_t{kCheckedWidth} * kCheckedHeight;
@@ -84,6 +79,9 @@ struct GivenFrame : CheckedDrawing {
     std::optional<uint32_t> layer;
     /// The picture is this part of the image.
     VkRect2D part{{0, 0}, {kCheckedWidth, kCheckedHeight}};
+
+    /// There is none before this one: all that was then is zero.
+    void cutFromLast();
 };
 
 struct CheckCase {
@@ -97,26 +95,10 @@ struct CheckCase {
     bool isUneven = false;    ///< the last frame is twice as long after the one before
 };
 
-/// Gathers cases; the one that is returned may be changed until the next.
-struct Cases {
-    CheckCase& operator()(
-        const std::string& name, const char* sentence, std::function<void(GivenFrame&)> change
-    ) {
-        return all.emplace_back(CheckCase{name, sentence, std::move(change)});
-    }
-
-    /// Of a host that is right.
-    CheckCase& operator()(const std::string& name, std::function<void(GivenFrame&)> change) {
-        return (*this)(name, "", std::move(change));
-    }
-
-    std::vector<CheckCase> all;
-};
-
 /// Named for gtest's sake.
 void PrintTo(const CheckScene& scene, std::ostream* stream);
 
-/// Scenes under cameras that move and turn.
+/// Scenes under cameras that move and turn: two, all of them with SHUTTER_ALL.
 [[nodiscard]] std::vector<CheckScene> listCheckScenes();
 /// Mistakes of hosts, with part of the reported sentence.
 [[nodiscard]] const std::vector<CheckCase>& listMistakes();
@@ -131,68 +113,42 @@ seeFrom(const CheckedDrawing& drawn, size_t pixel, const glm::dmat4& view, const
 /// \param clip of `cameras`, which are reversed
 [[nodiscard]] float storeDepth(const glm::dmat4& clip, float metres);
 
+/// Keys of the frame before and of this one, as a host has them that knows no others.
+void giveKeys(GivenFrame& given);
+/// A matrix for each key, of each listed mover that does not deform, and keys if there are none.
+void giveMatrices(GivenFrame& given);
+/// The same, and no other movers.
+void giveMatricesOnly(GivenFrame& given);
+
+/// Frames of a scene, which is loaded and drawn once for all tests.
+struct CheckedScene {
+    game::ShotOptions options;
+    game::Shot shot;
+    std::deque<CheckedDrawing> drawn; ///< each half a frame after the one before
+    CheckedDrawing uneven;            ///< the last frame, where it is longer
+};
+
 class CheckerHost : public EmbeddedTest, public testing::WithParamInterface<CheckScene> {
   protected:
     void SetUp() override;
 
     [[nodiscard]] GivenFrame give(int frame, const CheckCase& one, uint32_t view = 0) const;
 
-    /// Sentences of the checker for some frames.
+    /// Sentences of the suite's checker for some frames. It leaves out what it has reported before.
     [[nodiscard]] std::vector<std::string> check(const CheckCase& one);
 
     /// \param number of the recording
-    void record(
+    static void record(
         motion_blur::EmbeddedMotionBlur& blur,
         uint32_t number,
         GivenFrame& given,
         const Picture* output = nullptr
     );
 
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override;
+
   private:
-    /// \param number of half frames
-    /// \param frames since the one before
-    CheckedDrawing draw(render::Renderer& renderer, int number, double frames);
-
-    std::optional<CheckedShot> mShot;
-    std::deque<CheckedDrawing> mDrawn; ///< each half a frame after the one before
-    CheckedDrawing mUneven;            ///< the last frame, where it is longer
+    const CheckedScene* mScene = nullptr;
 };
-
-// Changes of what a host hands to the checker that several cases share.
-
-/// To units in which vectors are so many times as long.
-void scaleVectors(GivenFrame& given, const glm::vec2& factor);
-
-/// Takes the camera's part out of the vectors.
-void keepObjectsOnly(GivenFrame& given);
-
-/// Stores depth with far at 1, at 1000 m where the camera is perspective.
-void storeForwardDepth(GivenFrame& given);
-/// Gives cameras of that depth.
-void declareForwardDepth(GivenFrame& given);
-
-/// Stores depth along the view.
-void storeLinearDepth(GivenFrame& given, float unitsPerMetre);
-
-/// Another jitter in each frame.
-void declareJitter(GivenFrame& given);
-/// Draws with it, and leaves it in the vectors.
-void leaveJitter(GivenFrame& given);
-
-/// Turns the cameras of each frame away from those of the previous frame.
-void turnAway(GivenFrame& given);
-
-/// Share of the time between the frames at a shutter time: 0 the previous frame, 1 this one.
-[[nodiscard]] double shareAt(const GivenFrame& given, double shutterTime);
-
-/// Keys of the frame before and of this one, as a host has them that knows no others.
-void giveKeys(GivenFrame& given);
-/// Keys at these shutter times.
-void giveKeysAt(GivenFrame& given, const std::vector<double>& times);
-/// A matrix for each key, of each listed mover that does not deform, and keys if there are none.
-void giveMatrices(GivenFrame& given);
-
-/// Keeps part of the picture only, which the lens does not lie in the middle of.
-void cutOut(GivenFrame& given, const VkRect2D& part);
 
 } // namespace shutter::test

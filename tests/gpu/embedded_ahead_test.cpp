@@ -3,12 +3,14 @@
 // the budget.
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/kit/sweep.h"
 
 #include <array>
 #include <memory>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace shutter {
 namespace {
@@ -92,60 +94,56 @@ struct Host : test::HostFrame {
     motion_blur::HostMover mover{0, {}};
 };
 
-/// Hosts that draw over the picture at instants, or pass a drawing of theirs.
-constexpr const char* kDrawing = "resolved with draws";
-constexpr const char* kBlending = "gather with a layer";
+/// What hosts need that differ in passes and memory.
+struct Kind {
+    const char* method;
+    const char* with = ""; ///< what it has besides
+    bool isStill = false;  ///< without ids, in a world in which nothing moves by itself
+    bool draws = false;    ///< over the picture at instants
+    bool blends = false;   ///< passes a drawing
+    bool hasLens = false;  ///< which is closed in some frames
+    motion_blur::InstantNoise noise = motion_blur::InstantNoise::Off; ///< then more instants
+};
 
-MotionBlurSettings settingsOf(const char* method) {
+constexpr std::array<Kind, 10> kKinds{
+    {{"gather"},
+     {"hybrid"},
+     {"resolved"},
+     {"adaptive"},
+     {.method = "resolved", .with = "no ids", .isStill = true},
+     {.method = "resolved", .with = "draws", .draws = true},
+     {.method = "gather", .with = "a layer", .blends = true},
+     {.method = "resolved", .with = "a lens", .hasLens = true},
+     {.method = "resolved",
+      .with = "a lens and noise",
+      .hasLens = true,
+      .noise = motion_blur::InstantNoise::Fixed},
+     {.method = "adaptive", .with = "a lens", .hasLens = true}}};
+
+/// Each makes its pipelines anew, for seconds (`adaptive` for half a minute): the one with the
+/// fewest passes and one with many that may have a lens or none; all of them with SHUTTER_ALL.
+std::vector<Kind> listKinds() {
+    if (test::drawsAll())
+        return {kKinds.begin(), kKinds.end()};
+    return {kKinds.front(), kKinds[8]};
+}
+
+MotionBlurSettings aheadSettings(const char* method) {
     return test::settingsOf(method, 7);
 }
 
-/// Hosts with a lens.
-constexpr const char* kThroughLens = "resolved through a lens";
-constexpr const char* kRaysThroughLens = "adaptive through a lens";
-
-/// A host whose lens is closed in some frames, which then have more instants.
-constexpr const char* kNoisyLens = "resolved through a lens, with noise";
-
-/// A host without ids, in whose world nothing moves by itself.
-constexpr const char* kStillWorld = "resolved without ids";
-
-constexpr std::array kHosts = {
-    "gather",
-    "hybrid",
-    "resolved",
-    "adaptive",
-    kStillWorld,
-    kDrawing,
-    kBlending,
-    kThroughLens,
-    kNoisyLens,
-    kRaysThroughLens};
-
-HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
+HostPlan planOf(const Kind& kind, uint32_t width, uint32_t height) {
     HostPlan plan;
-    const bool isStatic = method == kStillWorld;
-    const bool draws = method == kDrawing;
-    const bool blends = method == kBlending;
-    const bool isNoisy = method == kNoisyLens;
-    plan.hasLens = method == kThroughLens || isNoisy || method == kRaysThroughLens;
-    const bool isResolved = isStatic || draws || method == kThroughLens || isNoisy;
-    const bool isAdaptive = method == kRaysThroughLens;
-    plan.settings = settingsOf(
-        isResolved   ? "resolved"
-        : isAdaptive ? "adaptive"
-        : blends     ? "gather"
-                     : method
-    );
-    if (isNoisy)
-        plan.settings.instantNoise = motion_blur::InstantNoise::Fixed;
-    if (isStatic)
+    plan.settings = aheadSettings(kind.method);
+    plan.settings.instantNoise = kind.noise;
+    plan.hasLens = kind.hasLens;
+    if (kind.isStill)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
     plan.height = height;
-    plan.drawsBlended = draws;
-    if (draws || blends)
-        plan.blendedPixels = uint64_t{width} * height / (draws ? 2 : 1);
+    plan.drawsBlended = kind.draws;
+    if (kind.draws || kind.blends)
+        plan.blendedPixels = uint64_t{width} * height / (kind.draws ? 2 : 1);
     return plan;
 }
 
@@ -166,21 +164,18 @@ class EmbeddedAhead : public test::EmbeddedTest {
         return done;
     }
 
-    static std::unique_ptr<EmbeddedMotionBlur> createMeasuring() {
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override {
         motion_blur::HostDevice described = describeHost();
         described.measures = true;
-        return create(described);
+        return described;
     }
 };
 
 TEST_F(EmbeddedAhead, TheMemoryEstimateIsWithinATenthOfTheMemoryUsed) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
-        for (const char* method : kHosts) {
-            // Each host makes its pipelines anew, for seconds.
-            if (size.x > 64 && method != kHosts.front() && method != kHosts.back())
-                continue;
-            SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
-            const HostPlan plan = planOf(method, size.x, size.y);
+        for (const Kind& kind : listKinds()) {
+            SCOPED_TRACE(std::string(kind.method) + " with " + kind.with);
+            const HostPlan plan = planOf(kind, size.x, size.y);
             const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
             ASSERT_TRUE(reported.ok()) << reported.error().message;
             const auto blur = create(describeHost());
@@ -202,28 +197,28 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
         const auto reported = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
         test::expectRefusal(reported ? core::Status() : core::Status(reported.error()), part);
     };
-    HostPlan plan = planOf("resolved", 64, 0);
+    HostPlan plan = planOf({"resolved"}, 64, 0);
     refuse(plan, "the size is 64 x 0");
-    plan = planOf("resolved", 64, 64);
+    plan = planOf({"resolved"}, 64, 64);
     plan.viewCount = 3;
     refuse(plan, "plan.viewCount is 3");
-    plan = planOf("gather", 64, 64);
+    plan = planOf({"gather"}, 64, 64);
     plan.hasLens = true;
     refuse(plan, "plan.hasLens is true, but the method gather has no lens");
     test::expectRefusal(create(describeHost())->warmUp(plan), "plan.hasLens is true");
-    plan = planOf("denoised", 64, 64);
+    plan = planOf({"denoised"}, 64, 64);
     refuse(plan, "denoised");
 }
 
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
-    for (const char* method : kHosts)
+    for (const Kind& kind : listKinds())
         for (const bool isAsynchronous : {false, true}) {
-            if (isAsynchronous && method != kHosts.front() && method != kHosts.back())
-                continue;
-            SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
+            if (isAsynchronous && std::string(kind.method) != "gather" && !test::drawsAll())
+                continue; // the thread does what the call would
+            SCOPED_TRACE(std::string(kind.method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());
             const Host host(device(), 96, 64);
-            HostPlan plan = planOf(method, 96, 64);
+            HostPlan plan = planOf(kind, 96, 64);
             if (isAsynchronous) {
                 ASSERT_TRUE(blur->startWarmUp(plan).ok());
                 EXPECT_FALSE(blur->startWarmUp(plan).ok()) << "one at a time";
@@ -256,13 +251,13 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
 
 /// Tables of many rows may overflow a tile's list, and have other pipelines than those of few.
 TEST_F(EmbeddedAhead, AWarmUpForManyRowsHasThePipelinesOfFewAndOfMany) {
-    for (const auto& [method, hasHistory] : {std::pair{"resolved", false}, {kThroughLens, true}}) {
-        SCOPED_TRACE(method);
+    for (const bool hasLens : {false, true}) {
+        SCOPED_TRACE(hasLens ? "a lens" : "no lens");
         const auto blur = create(describeHost());
         const Host host(device(), 96, 64);
-        HostPlan plan = planOf(method, 96, 64);
+        HostPlan plan = planOf({.method = "resolved", .hasLens = hasLens}, 96, 64);
         plan.rowCount = 100;
-        plan.settings.history = hasHistory;
+        plan.settings.history = hasLens;
         const core::Status done = blur->warmUp(plan);
         ASSERT_TRUE(done.ok()) << done.error().message;
         const LibraryCalls<&vkCreateComputePipelines> pipelines;
@@ -283,12 +278,12 @@ TEST_F(EmbeddedAhead, AWarmUpForManyRowsHasThePipelinesOfFewAndOfMany) {
 }
 
 TEST_F(EmbeddedAhead, AReportHasTimesOfEachPassAndCounters) {
-    const auto blur = createMeasuring();
     const Host host(device(), 96, 64);
-    EXPECT_FALSE(blur->report(0).ok()) << "nothing was recorded";
+    EmbeddedMotionBlur* const blur = mBlur.get();
+    EXPECT_FALSE(create(hostOfSuite())->report(0).ok()) << "nothing was recorded";
     EXPECT_FALSE(blur->report(2).ok()) << "there is no such number";
     for (const char* method : {"hybrid", "resolved", "adaptive"}) {
-        ASSERT_TRUE(draw(*blur, host, 1, host.inputs(), settingsOf(method)).ok());
+        ASSERT_TRUE(draw(*blur, host, 1, host.inputs(), aheadSettings(method)).ok());
         const auto report = blur->report(1);
         ASSERT_TRUE(report.ok()) << report.error().message;
         EXPECT_GT(report.value().passes.size(), 4u);
@@ -308,26 +303,26 @@ TEST_F(EmbeddedAhead, AReportHasTimesOfEachPassAndCounters) {
     gpu::Frame pending(device());
     pending.begin();
     host.recordClears(pending.commands());
-    ASSERT_TRUE(blur->record(pending.commands(), 0, host.inputs(), settingsOf("gather")).ok());
+    ASSERT_TRUE(blur->record(pending.commands(), 0, host.inputs(), aheadSettings("gather")).ok());
     EXPECT_FALSE(blur->report(0).ok()) << "the GPU has not run it";
     pending.submit();
     pending.wait();
     EXPECT_TRUE(blur->report(0).ok());
     const auto silent = create(describeHost());
-    ASSERT_TRUE(draw(*silent, host, 0, host.inputs(), settingsOf("gather")).ok());
+    ASSERT_TRUE(draw(*silent, host, 0, host.inputs(), aheadSettings("own_velocity")).ok());
     EXPECT_FALSE(silent->report(0).ok()) << "it does not measure";
 }
 
 TEST_F(EmbeddedAhead, ABudgetReducesQualityUntilItIsMet) {
-    const auto blur = createMeasuring();
     const Host host(device(), 96, 64);
+    EmbeddedMotionBlur* const blur = mBlur.get();
     HostInputs in = host.inputs();
     for (const double radius : {0.0, 0.05}) { // the cheapest methods have no lens
         in.motion.lens.radius = radius;
         in.budget.milliseconds = radius == 0.0 ? 1e-6 : 2e-6; // nothing fits
         std::string droppedQuality;
         for (uint32_t frame = 0; frame < 8; ++frame) {
-            ASSERT_TRUE(draw(*blur, host, frame % 2, in, settingsOf("resolved")).ok());
+            ASSERT_TRUE(draw(*blur, host, frame % 2, in, aheadSettings("resolved")).ok());
             droppedQuality = blur->report(frame % 2).value().droppedQuality;
             if (frame == 0) {
                 EXPECT_EQ(droppedQuality, "");
@@ -337,7 +332,7 @@ TEST_F(EmbeddedAhead, ABudgetReducesQualityUntilItIsMet) {
         EXPECT_NE(droppedQuality.find("all but"), std::string::npos) << droppedQuality;
     }
     in.budget.milliseconds = 1e6; // a new budget restarts
-    ASSERT_TRUE(draw(*blur, host, 0, in, settingsOf("resolved")).ok());
+    ASSERT_TRUE(draw(*blur, host, 0, in, aheadSettings("resolved")).ok());
     EXPECT_EQ(blur->report(0).value().droppedQuality, "");
 }
 

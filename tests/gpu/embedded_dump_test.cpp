@@ -3,7 +3,6 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/math/transform.h"
-#include "game/replay/dump_reader.h"
 #include "game/replay/replay_run.h"
 #include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
@@ -15,8 +14,11 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -35,11 +37,29 @@ class EmbeddedDump : public test::EmbeddedTest {
   protected:
     void SetUp() override {
         EmbeddedTest::SetUp();
-        if (!mBlur)
-            return;
-        mHost = describeHost();
-        mHost.message = [this](std::string_view sentence) { mReported.emplace_back(sentence); };
-        mBlur = create(mHost);
+        reported().clear();
+    }
+
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override {
+        motion_blur::HostDevice host = describeHost();
+        host.message = [](std::string_view sentence) { reported().emplace_back(sentence); };
+        return host;
+    }
+
+    static std::vector<std::string>& reported() {
+        static std::vector<std::string> sentences;
+        return sentences;
+    }
+
+    /// A text of the dump.
+    [[nodiscard]] std::string read(const std::string& name) const {
+        const auto bytes = io::readFileBytes(mFolder / name, 1 << 20);
+        EXPECT_TRUE(bytes.ok()) << name;
+        return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : "";
+    }
+
+    void write(const std::string& name, const std::string& text) const {
+        EXPECT_TRUE(io::writeFileText(mFolder / name, text).ok()) << name;
     }
 
     /// In a separate folder.
@@ -124,26 +144,28 @@ class EmbeddedDump : public test::EmbeddedTest {
         return picture;
     }
 
-    core::Status replay() const {
+    /// \param out a file in the dump's folder; empty: nothing is written
+    /// \param method in place of the host's; null: that
+    core::Status
+    replay(const char* out = "", bool showsInputs = false, const char* method = nullptr) const {
         replay::ReplayOptions options;
         options.folder = mFolder;
+        if (*out != 0)
+            options.out = mFolder / out;
+        options.showsInputs = showsInputs;
+        options.change = [&](motion_blur::MotionBlurSettings& settings) -> core::Status {
+            if (method)
+                settings.method = &motion_blur::getMethod(method);
+            return {};
+        };
         return replay::replay(options, device());
     }
 
     /// Replays the dump and expects pictures to be those, bit for bit.
     void expectReplayed(const std::vector<image::Image>& pictures) {
-        EXPECT_TRUE(mReported.empty()) << mReported.front();
-        for (size_t i = 0; i < pictures.size(); ++i) {
-            auto frame = replay::readDumpManifest(mFolder / fmt::format("frame_{:04}.json", i));
-            ASSERT_TRUE(frame.ok()) << frame.error().message;
-            const core::Status read = replay::readDumpTexels(mFolder, frame.value());
-            ASSERT_TRUE(read.ok()) << read.error().message;
-        }
-        replay::ReplayOptions options;
-        options.folder = mFolder;
-        options.out = mFolder / "replayed.exr";
+        EXPECT_TRUE(reported().empty()) << reported().front();
         testing::internal::CaptureStdout();
-        const core::Status done = replay::replay(options, device());
+        const core::Status done = replay("replayed.exr");
         std::fflush(stdout);
         const std::string printed = testing::internal::GetCapturedStdout();
         ASSERT_TRUE(done.ok()) << done.error().message;
@@ -152,10 +174,7 @@ class EmbeddedDump : public test::EmbeddedTest {
             ++same;
         EXPECT_EQ(same, pictures.size()) << printed;
         for (size_t i = 0; i < pictures.size(); ++i) {
-            const fs::path file =
-                mFolder / (pictures.size() > 1 ? fmt::format("replayed_{:04}.exr", i)
-                                               : std::string("replayed.exr"));
-            const auto replayed = io::readImage(file);
+            const auto replayed = io::readImage(mFolder / fmt::format("replayed_{:04}.exr", i));
             ASSERT_TRUE(replayed.ok()) << replayed.error().message;
             EXPECT_TRUE(test::sameBits(replayed.value(), pictures[i])) << i;
         }
@@ -163,8 +182,6 @@ class EmbeddedDump : public test::EmbeddedTest {
 
     test::TempFolder mTemp;
     fs::path mFolder = mTemp.path() / "dump";
-    motion_blur::HostDevice mHost;
-    std::vector<std::string> mReported;
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
     std::vector<math::ResponsePoint> mResponse;
@@ -183,6 +200,7 @@ motion_blur::MotionBlurSettings resolvedWithNoise() {
     return settings;
 }
 
+/// All frames of a dump, which one effect replays.
 TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
     struct Case {
         const char* name;
@@ -192,49 +210,49 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
 
     const std::vector<double> focuses{2.0, 4.0};
     const std::vector<math::ResponsePoint> points{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
-    for (const Case& one : std::vector<Case>{
-             {"plain", test::gather(), [] {}},
-             {"a response", test::gather(), [&] { mResponse = points; }},
-             {"a table without an address",
-              test::gather(),
-              [&] {
-                  mResponse.clear();
-                  mTable = math::makeResponseTable(points);
-              }},
-             {"no camera before a cut",
-              test::gather(),
-              [&] {
-                  mTable.reset();
-                  mIsCut = true;
-              }},
-             {"the same, packed", test::gather(), [&] { mIsPacked = true; }},
-             {"the camera alone, packed", test::settingsOf("rosado2007"), [&] { mIsCut = false; }},
-             {"the camera alone", test::settingsOf("rosado2007"), [&] { mIsPacked = false; }},
-             {"no vectors", resolvedWithNoise(), [&] { mHasVectors = false; }},
-             {"a lens", test::settingsOf("resolved", 5), [&] { mLens = {.radius = 0.04}; }},
-             {"a focus that is pulled",
-              test::settingsOf("resolved", 5),
-              [&] { mLens = {.radius = 0.04, .focusDistances = focuses, .blades = 5}; }},
-             {"a closed lens", test::settingsOf("resolved", 5), [&] { mLens = {}; }}}) {
+    const auto camera = test::settingsOf("rosado2007");
+    const auto resolved = test::settingsOf("resolved", 5);
+    const std::vector<Case> cases{
+        {"plain", test::gather(), [] {}},
+        {"a response", test::gather(), [&] { mResponse = points; }},
+        {"a table without an address",
+         test::gather(),
+         [&] {
+             mResponse.clear();
+             mTable = math::makeResponseTable(points);
+         }},
+        {"no camera before a cut",
+         test::gather(),
+         [&] {
+             mTable.reset();
+             mIsCut = true;
+         }},
+        {"the same, packed", test::gather(), [&] { mIsPacked = true; }},
+        {"the camera alone, packed", camera, [&] { mIsCut = false; }},
+        {"the camera alone", camera, [&] { mIsPacked = false; }},
+        {"no vectors", resolvedWithNoise(), [&] { mHasVectors = false; }},
+        {"a lens", resolved, [&] { mLens = {.radius = 0.04}; }},
+        {"a focus that is pulled",
+         resolved,
+         [&] { mLens = {.radius = 0.04, .focusDistances = focuses, .blades = 5}; }},
+        {"a closed lens", resolved, [&] { mLens = {}; }}};
+    startDump(uint32_t(cases.size()));
+    std::vector<image::Image> pictures;
+    for (const Case& one : cases) {
         SCOPED_TRACE(one.name);
         one.change();
-        startDump(1);
-        expectReplayed({draw(0, one.settings)});
+        const std::string file = fmt::format("frame_{:04}.json", pictures.size());
+        pictures.push_back(draw(0, one.settings));
         // Older readers refuse the member.
-        const auto bytes = io::readFileBytes(mFolder / "frame_0000.json", 1 << 20);
-        ASSERT_TRUE(bytes.ok());
-        const std::string text(bytes.value().begin(), bytes.value().end());
-        EXPECT_EQ(text.find("\"lens\"") != std::string::npos, mLens.isOpen());
+        EXPECT_EQ(read(file).find("\"lens\"") != std::string::npos, mLens.isOpen());
     }
-    mHasVectors = true;
-    const image::Image box = draw(0);
-    mResponse = points;
-    EXPECT_FALSE(test::sameBits(draw(0), box));
+    expectReplayed(pictures);
+    EXPECT_FALSE(test::sameBits(pictures[0], pictures[1])) << "the response counts";
 }
 
 TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
     for (const bool isStillWorld : {false, true}) {
-        mBlur = create(mHost);
+        forgetFrames();
         mHasVectors = mHasIds = !isStillWorld;
         mFirstKey = isStillWorld ? -1.0 : 0.0; // the frame before's
         (void)draw(0, resolvedWithNoise());    // before the dump: its first frame must not use it
@@ -252,26 +270,14 @@ TEST_F(EmbeddedDump, OlderDumpsWithoutALensAndOtherMethodsAreReplayedAsByAPinhol
     mLens = {.radius = 0.04};
     startDump(1);
     EXPECT_FALSE(test::sameBits(draw(0, settings), pinhole));
-    replay::ReplayOptions options;
-    options.folder = mFolder;
-    options.out = mFolder / "replayed.exr";
-    options.change = [](motion_blur::MotionBlurSettings& changed) -> core::Status {
-        changed.method = &motion_blur::getMethod("gather");
-        return {};
-    };
-    const core::Status byGather = replay::replay(options, device());
+    const core::Status byGather = replay("", false, "gather");
     EXPECT_TRUE(byGather.ok()) << byGather.error().message;
-    const fs::path file = mFolder / "frame_0000.json";
-    const auto bytes = io::readFileBytes(file, 1 << 20);
-    ASSERT_TRUE(bytes.ok());
-    std::string text(bytes.value().begin(), bytes.value().end());
+    std::string text = read("frame_0000.json");
     const size_t at = text.find(",", text.find("\"rowIds\""));
     const size_t end = text.find("}", text.find("\"lens\"")) + 1;
     ASSERT_LT(at, end);
-    text.erase(at, end - at);
-    ASSERT_TRUE(io::writeFileText(file, text).ok());
-    options.change = nullptr;
-    const core::Status older = replay::replay(options, device());
+    write("frame_0000.json", text.erase(at, end - at));
+    const core::Status older = replay("replayed.exr");
     ASSERT_TRUE(older.ok()) << older.error().message;
     EXPECT_TRUE(test::sameBits(io::readImage(mFolder / "replayed.exr").value(), pinhole));
 }
@@ -279,11 +285,8 @@ TEST_F(EmbeddedDump, OlderDumpsWithoutALensAndOtherMethodsAreReplayedAsByAPinhol
 TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     startDump(1);
     const image::Image picture = draw(0);
-    replay::ReplayOptions options;
-    options.folder = mFolder;
-    options.out = mFolder / "shown_%d.exr"; // the number of the dump's frame
-    options.showsInputs = true;
-    ASSERT_TRUE(replay::replay(options, device()).ok());
+    // The number of the dump's frame.
+    ASSERT_TRUE(replay("shown_%d.exr", true).ok());
     const auto shown = io::readImage(mFolder / "shown_0.exr");
     ASSERT_TRUE(shown.ok());
     // Panels lie along the top and the bottom.
@@ -295,23 +298,6 @@ TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     };
     EXPECT_TRUE(sameRow(kDumpHeight / 2));
     EXPECT_FALSE(sameRow(kDumpHeight / 8));
-}
-
-TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
-    startDump(1);
-    (void)draw(0);
-    const auto refuse = [&](const char* method, const std::string& sentence) {
-        replay::ReplayOptions options;
-        options.folder = mFolder;
-        options.change = [&](motion_blur::MotionBlurSettings& settings) -> core::Status {
-            settings.method = &motion_blur::getMethod(method);
-            return {};
-        };
-        test::expectRefusal(replay::replay(options, device()), sentence);
-    };
-    refuse("hybrid", "the dump holds nothing of what lies behind, since the host ran gather");
-    refuse("resolved", "the dump holds no camera keys, since the host ran gather");
-    refuse("adaptive", "needs the scene, which no dump holds");
 }
 
 TEST_F(EmbeddedDump, FaultsOfADumpAreReported) {
@@ -328,24 +314,28 @@ TEST_F(EmbeddedDump, FaultsOfADumpAreReported) {
     startDump(2);
     fs::remove_all(mFolder);
     (void)draw(0);
-    ASSERT_EQ(mReported.size(), 1u);
-    EXPECT_NE(mReported[0].find("No such file or directory"), std::string::npos) << mReported[0];
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok()) << "the last one has ended";
+    ASSERT_EQ(reported().size(), 1u);
+    EXPECT_NE(reported()[0].find("No such file or directory"), std::string::npos) << reported()[0];
+    startDump(1); // the last one has ended
+    (void)draw(0);
 }
 
-TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
+TEST_F(EmbeddedDump, HostileDumpsAndMethodsThatADumpCannotServeAreRefusedInOneSentence) {
     startDump(1);
     (void)draw(0);
-    const fs::path file = mFolder / "frame_0000.json";
-    const auto bytes = io::readFileBytes(file, 1 << 20);
-    ASSERT_TRUE(bytes.ok());
-    const std::string text(bytes.value().begin(), bytes.value().end());
+    for (const auto& [method, sentence] :
+         {std::pair(
+              "hybrid", "the dump holds nothing of what lies behind, since the host ran gather"
+          ),
+          {"resolved", "the dump holds no camera keys, since the host ran gather"},
+          {"adaptive", "needs the scene, which no dump holds"}})
+        test::expectRefusal(replay("", false, method), sentence);
+    const std::string text = read("frame_0000.json");
     const auto refuse = [&](const std::string& from, const std::string& to, const char* sentence) {
         std::string changed = text;
         const size_t at = changed.find(from);
         ASSERT_NE(at, std::string::npos) << from;
-        changed.replace(at, from.size(), to);
-        ASSERT_TRUE(io::writeFileText(file, changed).ok());
+        write("frame_0000.json", changed.replace(at, from.size(), to));
         test::expectRefusal(replay(), sentence);
     };
     refuse("frame_0000_color.bin", "../frame_0000_color.bin", "the name of a file in the folder");
@@ -358,7 +348,7 @@ TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
     refuse("\"gather\"", "\"teapot\"", "is no method of the motion blur");
     refuse("\"frameNumber\"", "\"frame number\"", "frame number");
     refuse(text.substr(text.size() / 2), "", "frame_0000.json:");
-    ASSERT_TRUE(io::writeFileText(file, text).ok());
+    write("frame_0000.json", text);
     fs::resize_file(mFolder / "frame_0000_color.bin", 100);
     test::expectRefusal(replay(), "has 100 bytes");
 }

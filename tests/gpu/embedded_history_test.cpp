@@ -62,13 +62,10 @@ class EmbeddedHistory : public test::EmbeddedTest {
         bool isStatic = false; ///< the camera is static at the frame's end
     };
 
-    void SetUp() override {
-        EmbeddedTest::SetUp();
-        if (IsSkipped() || HasFatalFailure())
-            return;
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override {
         motion_blur::HostDevice host = describeHost();
         host.framesInFlight = kFramesInFlight;
-        mBlur = create(host);
+        return host;
     }
 
     void TearDown() override {
@@ -181,7 +178,7 @@ TEST_F(EmbeddedHistory, ThePreviousFrameIsLookedUpWhereThereIsOneAndTheHostDecla
 
 TEST_F(EmbeddedHistory, HostHistoryImagesGiveTheBitsOfStoredHistory) {
     const auto drawSecond = [&](bool lends) {
-        SetUp(); // an effect that holds nothing yet
+        useOwn(hostOfSuite()); // which holds nothing yet
         submit({.brightness = 1.0f, .followsLast = false, .index = 0}, 0);
         mFrames.back()->frame.wait();
         mLent = lends ? &mFrames.back()->host : nullptr;
@@ -299,6 +296,7 @@ TEST_F(EmbeddedHistory, IdsThatAreNoRowsAndTransformsBeyondAllRangeAreDrawn) {
 }
 
 TEST_F(EmbeddedHistory, AClosedViewLeavesNothingBehind) {
+    useOwn(hostOfSuite()); // which holds nothing else
     drawFirst();
     const gpu::LivingObjects before = mBlur->living();
     (void)draw({.brightness = 1.0f, .view = 2});

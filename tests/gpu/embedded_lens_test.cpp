@@ -43,8 +43,14 @@ HostLens describeLens(const scene::World& world, ecs::Entity camera) {
     return made;
 }
 
-class EmbeddedLens : public test::EmbeddedTest {
+class EmbeddedLens : public test::StagedTest {
   protected:
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override {
+        motion_blur::HostDevice host = describeHost();
+        host.measures = true;
+        return host;
+    }
+
     /// A wall behind what is in focus, and a square and a box before it.
     static void build(test::SceneBuilder& scene, bool moves) {
         const double speed = moves ? 1.0 : 0.0;
@@ -66,10 +72,8 @@ class EmbeddedLens : public test::EmbeddedTest {
 
     void start(bool moves) {
         build(mScene, moves);
-        motion_blur::HostDevice described = describeHost();
-        described.measures = true;
         const auto settings = settingsOf("resolved", kLensInstants);
-        mStage.emplace(device(), mScene, described, settings, settings);
+        mStage.emplace(device(), mScene, *mBlur, blurOfC(), settings, settings);
         mStage->declareMotion(mDescriber);
         mStage->request.view.usesLens = true;
         mStage->shutter.exposureSeconds = moves ? 0.25 : 0.0;
@@ -84,7 +88,7 @@ class EmbeddedLens : public test::EmbeddedTest {
 
     void TearDown() override {
         mStage.reset();
-        EmbeddedTest::TearDown();
+        StagedTest::TearDown();
     }
 
     StagedFrame draw(int frame) {

@@ -1,54 +1,68 @@
 // SPDX-License-Identifier: MIT
 // The motion blur on raw handles: pictures by either interface equal the plugin's, bit for bit if
-// the host gives motion at the method's instants; and frames in flight that change their size.
+// the host gives motion at the method's instants, or hands in the engine's own layer of blended
+// surfaces; and frames in flight that change their size.
+#include "engine/extract/blended_layer.h"
 #include "engine/image/metrics.h"
+#include "engine/render/blended_layer.h"
 #include "tests/gpu/gbuffer_host.h"
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace shutter {
 namespace {
 
+using math::vec4;
 using motion_blur::HostDevice;
+using motion_blur::HostInputs;
 using motion_blur::InstantNoise;
 using motion_blur::MotionBlurSettings;
 using test::BlurStage;
 using test::expectSame;
 using test::gather;
 using test::HostFrame;
+using test::HostTexels;
 using test::MotionDescriber;
 using test::settingsOf;
 using test::StagedFrame;
 
-class EmbeddedPictures : public test::EmbeddedTest {
+class EmbeddedPictures : public test::StagedTest {
   protected:
-    static void
-    expectSameAsPlugin(const HostDevice& host, const char* method, bool hasTriangle, bool hasC) {
-        SCOPED_TRACE(method);
-        test::SceneBuilder scene;
-        test::buildMovers(scene);
-        BlurStage stage(device(), scene, host, settingsOf(method), settingsOf(method));
-        if (hasTriangle)
-            stage.giveTriangle();
-        if (!hasC)
-            stage.host.blurOfC = nullptr;
+    void SetUp() override {
+        StagedTest::SetUp();
+        test::buildMovers(mScene);
+    }
+
+    static void expectSameAsPlugin(BlurStage& stage) {
         const image::Image sharp = stage.drawSharp().color;
         stage.request.intermediates = {"mask"};
         const StagedFrame drawn = stage.draw();
         EXPECT_FALSE(test::sameBits(drawn.result.color, sharp)) << "nothing was blurred";
         expectSame(drawn);
-        if (!hasC) {
+        if (!stage.host.blurOfC) {
             EXPECT_GT(test::countSet(drawn.result.intermediates.at("mask")), 50u);
         }
     }
+
+    test::SceneBuilder mScene;
 };
 
 TEST_F(EmbeddedPictures, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
+    const auto expectSameBy = [&](const char* method, bool hasTriangle) {
+        SCOPED_TRACE(method);
+        BlurStage stage(
+            device(), mScene, *mBlur, blurOfC(), settingsOf(method), settingsOf(method)
+        );
+        if (hasTriangle)
+            stage.giveTriangle();
+        expectSameAsPlugin(stage);
+    };
     for (const motion_blur::Method* method : motion_blur::listMethods())
         if (method->readsImagesOnly())
-            expectSameAsPlugin(describeHost(), method->name, true, true);
-    expectSameAsPlugin(describeHost(), "gather", false, true);
+            expectSameBy(method->name, true);
+    expectSameBy("gather", false);
 }
 
 TEST_F(EmbeddedPictures, HybridGivesTheBitsOfThePlugin) {
@@ -56,18 +70,19 @@ TEST_F(EmbeddedPictures, HybridGivesTheBitsOfThePlugin) {
         GTEST_SKIP() << "the device traces no rays";
     HostDevice host = describeHost();
     host.rayTier = device().info().rayTier;
-    expectSameAsPlugin(host, "hybrid", true, false);
+    BlurStage stage(device(), mScene, host, settingsOf("hybrid"));
+    stage.giveTriangle();
+    expectSameAsPlugin(stage);
 }
 
 /// rosado2007 of a host without Shutter's tables: it follows the given cameras.
 TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
-    for (const bool cameraMoves : {true, false}) {
-        test::SceneBuilder scene;
-        test::buildMovers(scene);
+    for (const bool cameraMoves : {false, true}) {
+        test::SceneBuilder& scene = mScene;
         if (cameraMoves)
             scene.moveCamera({.velocity = {0.4, 0.1, -0.3}, .angularVelocity = {0.02, 0.1, 0.05}});
         const MotionBlurSettings settings = settingsOf("rosado2007");
-        BlurStage stage(device(), scene, describeHost(), settings, settings);
+        BlurStage stage(device(), scene, *mBlur, blurOfC(), settings, settings);
         stage.host.changeInputs = [&](const render::PostContext& context, auto& inputs) {
             inputs.rays = {};
             inputs.convention.cameras = test::declareCameras(scene.world, context.view);
@@ -88,6 +103,7 @@ TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
 
 // Validation finds whatever is destroyed or overwritten while a frame is in flight.
 TEST_F(EmbeddedPictures, FramesInFlightMayChangeTheirSize) {
+    useOwn(describeHost()); // which holds nothing yet
     std::array<gpu::Frame, 2> frames{gpu::Frame(device()), gpu::Frame(device())};
     gpu::LivingObjects small;
     gpu::LivingObjects last;
@@ -111,7 +127,7 @@ TEST_F(EmbeddedPictures, FramesInFlightMayChangeTheirSize) {
 TEST_F(EmbeddedPictures, ResourcesRetiredByAResizeAreFreedWhenTheirFramesAreDone) {
     HostDevice description = describeHost();
     description.framesInFlight = 3;
-    mBlur = create(description);
+    useOwn(description);
     const auto draw = [&](uint32_t slot, uint32_t size) {
         const HostFrame host(device(), size, size);
         submit([&](VkCommandBuffer commands) {
@@ -158,11 +174,11 @@ class Scene : public test::SceneBuilder {
 };
 
 /// `resolved`, frame after frame, for a host that gives the motion of its camera and entities.
-class EmbeddedInstants : public test::EmbeddedTest {
+class EmbeddedInstants : public test::StagedTest {
   protected:
     void start(MotionDescriber describer, const MotionBlurSettings& settings = resolved()) {
         mDescriber.emplace(std::move(describer));
-        mStage.emplace(device(), mScene, describeHost(), settings, settings);
+        mStage.emplace(device(), mScene, *mBlur, blurOfC(), settings, settings);
         mStage->declareMotion(*mDescriber);
         mStage->shutter.exposureSeconds = mStage->frameSeconds = 0.25;
         mStage->shutter.phase = scene::ShutterPhase::End;
@@ -170,7 +186,7 @@ class EmbeddedInstants : public test::EmbeddedTest {
 
     void TearDown() override {
         mStage.reset();
-        EmbeddedTest::TearDown();
+        StagedTest::TearDown();
     }
 
     StagedFrame draw(int frame) {
@@ -249,6 +265,129 @@ TEST_F(EmbeddedInstants, MoversWithoutTransformsFollowTheirMotionVectors) {
     const StagedFrame drawn = draw(0);
     EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 25.0);
     EXPECT_FALSE(test::sameBits(drawn.output, drawn.result.color));
+}
+
+/// Panes before a wall and a mover, the layer of which a host hands in as its own.
+class EmbeddedLayer : public test::StagedTest {
+  protected:
+    static scene::AssetIndex addGlass(test::SceneBuilder& scene, const math::vec3& color) {
+        scene::Material material;
+        material.baseColorFactor = vec4(color, 0.5f);
+        material.alphaMode = scene::AlphaMode::Blend;
+        material.unlit = true;
+        material.doubleSided = true;
+        return scene.addMaterial(std::move(material));
+    }
+
+    static void addPanes(test::SceneBuilder& scene) {
+        scene.setPerspective(1.0);
+        scene.add(
+            test::makeQuad(12.0, 8.0, scene.addTextured(scene.addWaveTexture(), true)),
+            {.position = {0, 0, -6}}
+        );
+        scene.add(
+            test::makeQuad(1.4, 1.2, addGlass(scene, {0.2f, 0.5f, 0.9f})),
+            {.position = {0, 0, -3}, .velocity = {1.6, 0.4, 0}}
+        );
+        scene.add(
+            test::makeQuad(1.0, 1.6, addGlass(scene, {0.9f, 0.3f, 0.1f})),
+            {.position = {0.5, 0, -2.5}, .velocity = {-1.2, 0, 0}}
+        );
+    }
+
+    /// Draws once to learn the layer, and once more with it as the host's.
+    void expectEnginesPicture(test::SceneBuilder& scene, const MotionBlurSettings& settings) {
+        SCOPED_TRACE(settings.method->name);
+        BlurStage stage(device(), scene, *mBlur, blurOfC(), settings, settings);
+        MotionDescriber describer(settings.sampleCount);
+        if (settings.method->readsInstantMotions)
+            stage.declareMotion(describer);
+        render::BlendedLayerPass pass(device(), stage.renderer.scene());
+        extract::BlendedLayer layer;
+        stage.host.changeInputs = [&](const render::PostContext& context, HostInputs&) {
+            layer = plan(scene, stage, settings, context);
+            ASSERT_FALSE(layer.empty());
+            ASSERT_FALSE(layer.readsInstants) << "the host has one part";
+            const render::BlendedPart drawn = pass.declare(context, layer, {}, 0);
+            context.intermediates.publish("layer color", drawn.color);
+            context.intermediates.publish("layer opacity", drawn.opacity);
+        };
+        stage.request.intermediates = {"layer color", "layer opacity"};
+        const StagedFrame without = stage.draw();
+        if (HasFatalFailure())
+            return;
+        EXPECT_FALSE(test::sameBits(without.output, without.result.color)) << "no layer was drawn";
+        const HostTexels& texels = makeLayer(
+            layer,
+            without.result.intermediates.at("layer color"),
+            without.result.intermediates.at("layer opacity")
+        );
+        submit([&](VkCommandBuffer commands) { texels.record(commands); });
+        stage.host.changeInputs = [&](const render::PostContext&, HostInputs& inputs) {
+            inputs.blended = texels.describe();
+            inputs.blended.after = inputs.blended.before; // three recordings read it
+        };
+        stage.request.intermediates = {};
+        expectSame(stage.draw());
+    }
+
+    static extract::BlendedLayer plan(
+        const test::SceneBuilder& scene,
+        const test::BlurStage& stage,
+        const MotionBlurSettings& settings,
+        const render::PostContext& context
+    ) {
+        const scene::ExposureMotion motion(scene.world, context.view.camera, context.view.exposure);
+        extract::LayerLimits limits;
+        if (settings.method->sampleUnit == motion_blur::SampleUnit::Instants)
+            limits.instants = settings.sampleCount;
+        limits.findsInstants = settings.method->readsInstantMotions;
+        limits.surfaceBytes = device().limits().maxStorageBufferRange;
+        return extract::planBlendedLayer(
+            scene.world,
+            stage.renderer.scene().layout(),
+            context.view,
+            motion,
+            context.frame,
+            limits
+        );
+    }
+
+    /// The picture's size, opacity in alpha.
+    const HostTexels& makeLayer(
+        const extract::BlendedLayer& layer, const image::Image& color, const image::Image& opacity
+    ) {
+        std::vector<uint64_t> texels(size_t{test::kStageSize.x} * test::kStageSize.y, 0);
+        for (uint32_t y = 0; y < layer.sizePx.y; ++y)
+            for (uint32_t x = 0; x < layer.sizePx.x; ++x) {
+                const size_t from = size_t{y} * color.width + x; // it is larger than the layer
+                const float* const rgb = &color.pixels[from * color.channels];
+                const size_t to =
+                    size_t{y + layer.originPx.y} * test::kStageSize.x + x + layer.originPx.x;
+                texels[to] =
+                    test::packHalf({rgb[0], rgb[1], rgb[2], opacity.pixels[from * opacity.channels]}
+                    );
+            }
+        return makeTexels(
+            VK_FORMAT_R16G16B16A16_SFLOAT, {test::kStageSize.x, test::kStageSize.y}, texels
+        );
+    }
+};
+
+TEST_F(EmbeddedLayer, GivenAsAnImageIsTheEnginesPictureByEachMethod) {
+    for (const motion_blur::Method* method : motion_blur::listMethods()) {
+        if (!method->readsImagesOnly())
+            continue;
+        test::SceneBuilder scene;
+        addPanes(scene);
+        expectEnginesPicture(scene, settingsOf(method->name));
+    }
+    // Nothing moves behind the panes, so that they have one part here, too.
+    test::SceneBuilder scene;
+    addPanes(scene);
+    MotionBlurSettings resolved = settingsOf("resolved", 7);
+    resolved.history = false;
+    expectEnginesPicture(scene, resolved);
 }
 
 } // namespace

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A host that embeds the motion blur by raw Vulkan handles.
+// A host that embeds the motion blur by raw Vulkan handles, and its inputs in the words of the C
+// interface.
 #pragma once
 
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/types.h"
 #include "engine/image/image.h"
 #include "engine/math/math.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/methods.h"
 #include "tests/support/gpu_fixture.h"
@@ -289,6 +292,40 @@ class TwoLayers {
     gpu::MemoryBlock mMemory;
 };
 
+/// A compute shader of the host's, with what its recordings hold until the GPU is done.
+class HostShader {
+  public:
+    HostShader(gpu::Device& device, const gpu::ComputePipelineDesc& desc)
+        : mDevice(device), mPipeline(device, desc) {}
+
+    /// Binds it for the next dispatch.
+    template <class Push>
+    void bind(
+        VkCommandBuffer commands,
+        const gpu::BindingList& bindings,
+        const Push& push,
+        VkDescriptorSet scene = VK_NULL_HANDLE
+    ) {
+        gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
+        frame.beginIn(commands);
+        frame.bind(mPipeline, bindings, &push, sizeof(push), scene);
+    }
+
+    /// An image that was handed over to it.
+    const gpu::Image&
+    adopt(VkImage image, VkExtent2D size, VkFormat format, VkImageUsageFlags usage) {
+        return mImages.emplace_back(
+            gpu::Image::adopt(mDevice, "host's", image, {size.width, size.height, format, usage})
+        );
+    }
+
+  private:
+    gpu::Device& mDevice;
+    gpu::Pipeline mPipeline;
+    std::deque<gpu::Image> mImages;
+    std::vector<std::unique_ptr<gpu::Frame>> mFrames;
+};
+
 template <class T> [[nodiscard]] std::span<const std::byte> bytesOf(const std::vector<T>& values) {
     return std::as_bytes(std::span<const T>(values));
 }
@@ -315,17 +352,22 @@ inline void expectRefusal(const core::Status& status, const std::string& part) {
         << "expected: " << part << "\n got: " << status.error().message;
 }
 
-/// The tests' device as a host hands it over, and an effect on it.
+/// The tests' device as a host hands it over, and an effect on it, which the tests of a suite
+/// share: its pipelines take lavapipe seconds.
 class EmbeddedTest : public GpuTest {
   protected:
+    static void TearDownTestSuite() { sKept.reset(); }
+
     void SetUp() override {
         GpuTest::SetUp();
         if (!IsSkipped() && !HasFatalFailure())
-            mBlur = create(describeHost());
+            mBlur = sKept ? std::move(sKept) : create(hostOfSuite());
+        mShared = mBlur.get();
     }
 
     void TearDown() override {
         mTexels.clear();
+        keepShared();
         mBlur.reset();
         GpuTest::TearDown();
     }
@@ -339,11 +381,33 @@ class EmbeddedTest : public GpuTest {
         return host;
     }
 
+    /// The host of the effect that tests share; nothing that it refers to may die with a test.
+    [[nodiscard]] virtual motion_blur::HostDevice hostOfSuite() const { return describeHost(); }
+
     static std::unique_ptr<motion_blur::EmbeddedMotionBlur>
     create(const motion_blur::HostDevice& host) {
         auto blur = motion_blur::EmbeddedMotionBlur::create(host);
         EXPECT_TRUE(blur.ok()) << blur.error().message;
         return blur.ok() ? std::move(blur).value() : nullptr;
+    }
+
+    /// Another effect until the test ends.
+    void useOwn(const motion_blur::HostDevice& host) {
+        keepShared();
+        mBlur = create(host);
+    }
+
+    /// A new effect for this test and those after it.
+    void replaceShared() {
+        mBlur = create(hostOfSuite());
+        mShared = mBlur.get();
+    }
+
+    /// No recording is pending, and no view has a frame before its next one.
+    void forgetFrames() {
+        const uint32_t count = hostOfSuite().framesInFlight;
+        for (uint32_t i = 0; i < count; ++i)
+            EXPECT_TRUE(mBlur->markDone(i).ok() && mBlur->closeView(i).ok());
     }
 
     /// Records, submits and waits.
@@ -394,6 +458,165 @@ class EmbeddedTest : public GpuTest {
 
     std::unique_ptr<motion_blur::EmbeddedMotionBlur> mBlur;
     std::deque<HostTexels> mTexels; ///< of the inputs
+
+  private:
+    /// Sets the shared effect aside for the next test; after a failure that has another one.
+    void keepShared() {
+        if (!mBlur || mBlur.get() != mShared)
+            return;
+        device().waitIdle();
+        forgetFrames();
+        if (!HasFailure())
+            sKept = std::move(mBlur);
+        mBlur.reset();
+    }
+
+    static inline std::unique_ptr<motion_blur::EmbeddedMotionBlur> sKept;
+    const motion_blur::EmbeddedMotionBlur* mShared = nullptr;
+};
+
+inline ShutterBlurDevice describeForC(const gpu::Device& device) {
+    ShutterBlurDevice described = shutterBlurDefaultDevice();
+    described.physical = device.physical();
+    described.device = device.handle();
+    described.queueFamily = device.queueFamily();
+    described.hasDebugUtils = VK_TRUE;
+    return described;
+}
+
+class BlurOfC {
+  public:
+    explicit BlurOfC(const ShutterBlurDevice& described) {
+        EXPECT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS)
+            << shutterBlurGetMessage();
+    }
+
+    explicit BlurOfC(const gpu::Device& device) : BlurOfC(describeForC(device)) {}
+
+    ~BlurOfC() { shutterBlurDestroy(blur); }
+
+    BlurOfC(const BlurOfC&) = delete;
+    BlurOfC& operator=(const BlurOfC&) = delete;
+
+    ShutterBlur* blur = nullptr;
+};
+
+inline ShutterBlurImage convertForC(const motion_blur::HostImage& image) {
+    const auto use = [](const graph::OutsideUse& given) {
+        return ShutterBlurUse{given.layout, given.stages, given.access};
+    };
+    ShutterBlurImage made{};
+    made.image = image.image;
+    made.format = image.format;
+    made.extent = image.extent;
+    made.area = image.area;
+    made.usage = image.usage;
+    made.layer = image.layer;
+    made.before = use(image.before);
+    made.after = use(image.after);
+    return made;
+}
+
+/// What `inputs` points to; both must last until it is recorded.
+struct InputsForC {
+    explicit InputsForC(const motion_blur::HostInputs& given) : mGiven(given) {
+        inputs.width = given.width;
+        inputs.height = given.height;
+        inputs.color = convertForC(given.color);
+        inputs.output = convertForC(given.output);
+        inputs.motionDepth = convertForC(given.motionDepth);
+        inputs.normal = convertForC(given.normal);
+        inputs.entityId = convertForC(given.entityId);
+        inputs.blended = convertForC(given.blended);
+        inputs.rasterTime = given.rasterTime;
+        inputs.frameNumber = given.frameNumber;
+        takeMotion(given.motion);
+        takeCameras(given.convention);
+        for (const math::ResponsePoint& point : given.responsePoints)
+            mResponse.push_back({point.s, point.sensitivity});
+        inputs.responsePoints = mResponse.data();
+        inputs.responsePointCount = static_cast<uint32_t>(mResponse.size());
+        if (given.reveal.record) {
+            inputs.revealUser = this;
+            inputs.recordReveal = [](void* self, const ShutterBlurRevealTask* task) {
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.reveal.record(*task);
+            };
+        }
+        if (given.samples.record) {
+            inputs.samplesUser = this;
+            inputs.recordSamples = [](void* self, const ShutterBlurSampleTask* task) {
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.samples.record(*task);
+            };
+        }
+        if (given.drawn.record) {
+            inputs.blendedUser = this;
+            inputs.recordBlended = [](void* self, const ShutterBlurBlendedTask* task) {
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.drawn.record(*task);
+            };
+        }
+        inputs.blendedArea = given.drawn.area;
+        inputs.blendedInstants = given.drawn.instantCount;
+        inputs.blendedParts = given.drawn.partCount;
+        inputs.blendedOpacityInAlpha = given.drawn.isOpacityInAlpha ? VK_TRUE : VK_FALSE;
+    }
+
+    ShutterBlurInputs inputs = shutterBlurDefaultInputs();
+
+  private:
+    void takeMotion(const motion_blur::HostMotion& motion) {
+        for (const motion_blur::HostCameraKey& key : motion.keys) {
+            ShutterBlurCameraKey& made = mKeys.emplace_back();
+            made.time = key.time;
+            std::memcpy(made.viewFromWorld, &key.viewFromWorld, sizeof(made.viewFromWorld));
+            std::memcpy(made.clipFromView, &key.clipFromView, sizeof(made.clipFromView));
+        }
+        for (const motion_blur::HostMover& mover : motion.movers)
+            mMovers.push_back(
+                {mover.row,
+                 mover.worldFromObject.empty() ? nullptr : &mover.worldFromObject[0][0].x}
+            );
+        inputs.keyCount = static_cast<uint32_t>(mKeys.size());
+        inputs.keys = mKeys.data();
+        inputs.moverCount = static_cast<uint32_t>(mMovers.size());
+        inputs.movers = mMovers.data();
+        inputs.rowCount = motion.rowCount;
+        inputs.rowIds = motion.rowIds.empty() ? nullptr : motion.rowIds.data();
+        inputs.followsLast = motion.followsLast ? VK_TRUE : VK_FALSE;
+        ShutterBlurLens& lens = inputs.lens;
+        lens.radius = motion.lens.radius;
+        lens.focusDistance = motion.lens.focusDistance;
+        if (!motion.lens.focusDistances.empty())
+            lens.focusDistances = motion.lens.focusDistances.data();
+        lens.bladeRotation = motion.lens.bladeRotation;
+        lens.roundness = motion.lens.roundness;
+        lens.squeeze = motion.lens.squeeze;
+        lens.blades = motion.lens.blades;
+        inputs.cameras.aheadIsPlusZ = motion.aheadIsPlusZ ? VK_TRUE : VK_FALSE;
+    }
+
+    void takeCameras(const motion_blur::HostConvention& convention) {
+        const motion_blur::HostCameras& cameras = convention.cameras;
+        ShutterBlurCameras& made = inputs.cameras;
+        const auto copy = [](double* to, const glm::dmat4& from) {
+            std::memcpy(to, &from, sizeof(from));
+        };
+        made.areGiven = cameras.areGiven ? VK_TRUE : VK_FALSE;
+        copy(made.viewFromWorld, cameras.viewFromWorld);
+        copy(made.clipFromView, cameras.clipFromView);
+        copy(made.viewFromWorldBefore, cameras.viewFromWorldBefore);
+        copy(made.clipFromViewBefore, cameras.clipFromViewBefore);
+        inputs.exposureShare = convention.scales.exposureShare;
+        inputs.cameraScale = convention.scales.camera;
+        inputs.objectScale = convention.scales.object;
+    }
+
+    const motion_blur::HostInputs& mGiven;
+    std::vector<ShutterBlurCameraKey> mKeys;
+    std::vector<ShutterBlurMover> mMovers;
+    std::vector<ShutterBlurResponsePoint> mResponse;
 };
 
 } // namespace shutter::test

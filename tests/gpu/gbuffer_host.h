@@ -9,7 +9,6 @@
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
-#include "tests/gpu/c_inputs.h"
 #include "tests/gpu/embedding_host.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/picture.h"
@@ -39,12 +38,13 @@ class HostOfTheGBuffer : public render::PostEffect {
     HostOfTheGBuffer(
         gpu::Device& device,
         motion_blur::EmbeddedMotionBlur& blur,
-        const motion_blur::MotionBlurSettings& settings,
+        const motion_blur::MotionBlurSettings& hosts,
         math::uvec2 sizePx
     )
-        : output(device, sizePx), inPlace(device, sizePx), byC(device, sizePx), mBlur(blur),
-          mSettings(settings) {}
+        : settings(hosts), output(device, sizePx), inPlace(device, sizePx), byC(device, sizePx),
+          mBlur(blur) {}
 
+    motion_blur::MotionBlurSettings settings;
     Picture output;
     Picture inPlace;
     /// With it the C interface draws the same picture once more, under its number 0.
@@ -60,10 +60,9 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     /// Turns the rays that are handed in into a reveal of the host's own.
     std::function<void(motion_blur::HostInputs&)> takeRays;
-    /// Adds further inputs of the host. Referenced objects must live until the frame has ended.
+    /// Changes inputs of the host, but the images of the G-buffer. Referenced objects must live
+    /// until the frame has ended.
     std::function<void(const render::PostContext&, motion_blur::HostInputs&)> changeInputs;
-    /// Changes the scene of rays. Referenced objects must live until the frame has ended.
-    std::function<void(const render::PostContext&, motion_blur::HostRays&)> changeRays;
 
     [[nodiscard]] std::string name() const override { return "host"; }
 
@@ -91,8 +90,6 @@ class HostOfTheGBuffer : public render::PostEffect {
             inputs.rays.frameConstants = context.rays->frameConstants;
             inputs.rays.hasBlended = context.rays->hasBlended;
         }
-        if (changeRays)
-            changeRays(context, inputs.rays);
         if (describeMotion)
             describeMotion(context, inputs.motion);
         if (changeInputs)
@@ -141,7 +138,7 @@ class HostOfTheGBuffer : public render::PostEffect {
   private:
     void recordBoth(VkCommandBuffer commands, motion_blur::HostInputs& inputs) {
         inputs.output = output.output();
-        const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
+        const core::Status other = mBlur.record(commands, 0, inputs, settings);
         ASSERT_TRUE(other.ok()) << other.error().message;
         output.recordReadback(commands);
         if (blurOfC)
@@ -158,7 +155,7 @@ class HostOfTheGBuffer : public render::PostEffect {
         inputs.output = {};
         inputs.color = {inPlace.handle(), kWritten, kCopied};
         inputs.motion.view = 1;
-        const core::Status same = mBlur.record(commands, 1, inputs, mSettings);
+        const core::Status same = mBlur.record(commands, 1, inputs, settings);
         ASSERT_TRUE(same.ok()) << same.error().message;
         inPlace.recordReadback(commands);
     }
@@ -168,22 +165,20 @@ class HostOfTheGBuffer : public render::PostEffect {
         given.output = byC.output();
         given.responsePoints = responseForC;
         const InputsForC reported(given);
-        ShutterBlurSettings settings = shutterBlurDefaultSettings();
-        settings.method = mSettings.method->name;
-        settings.sampleCount = mSettings.sampleCount;
-        const std::string rays = std::to_string(mSettings.raysPerPixel);
+        ShutterBlurSettings inC = shutterBlurDefaultSettings();
+        inC.method = settings.method->name;
+        inC.sampleCount = settings.sampleCount;
+        const std::string rays = std::to_string(settings.raysPerPixel);
         const ShutterBlurValue value{"raysPerPixel", rays.c_str()};
-        settings.values = &value;
-        settings.valueCount = 1;
+        inC.values = &value;
+        inC.valueCount = 1;
         ASSERT_EQ(
-            shutterBlurRecord(blurOfC, commands, 0, &reported.inputs, &settings),
-            SHUTTER_BLUR_SUCCESS
+            shutterBlurRecord(blurOfC, commands, 0, &reported.inputs, &inC), SHUTTER_BLUR_SUCCESS
         ) << shutterBlurGetMessage();
         byC.recordReadback(commands);
     }
 
     motion_blur::EmbeddedMotionBlur& mBlur;
-    motion_blur::MotionBlurSettings mSettings;
 };
 
 /// The camera when the shutter closes, and, as the one before, when it opens.
@@ -302,23 +297,36 @@ struct StagedFrame {
 /// Draws frames of a scene with a host's blur before the plugin's.
 class BlurStage {
   public:
-    /// \param described its scene layout is the renderer's where it has rays
+    /// \param blurs whose recordings are all done; it has two frames and views
+    /// \param blurOfC the same; null: the C interface draws nothing
+    BlurStage(
+        gpu::Device& device,
+        SceneBuilder& scene,
+        motion_blur::EmbeddedMotionBlur& blurs,
+        ShutterBlur* blurOfC,
+        const motion_blur::MotionBlurSettings& hosts,
+        const motion_blur::MotionBlurSettings& plugins
+    )
+        : BlurStage(device, scene, hosts, plugins, [&](auto&) { return &blurs; }) {
+        host.blurOfC = blurOfC;
+        for (uint32_t i = 0; i < 2; ++i) {
+            EXPECT_TRUE(blurs.markDone(i).ok() && blurs.closeView(i).ok());
+            EXPECT_TRUE(!blurOfC || shutterBlurCloseView(blurOfC, i) == SHUTTER_BLUR_SUCCESS);
+        }
+    }
+
+    /// With a blur of its own, whose scene layout is the renderer's.
     BlurStage(
         gpu::Device& device,
         SceneBuilder& scene,
         motion_blur::HostDevice described,
-        const motion_blur::MotionBlurSettings& hosts,
-        const motion_blur::MotionBlurSettings& plugins
+        const motion_blur::MotionBlurSettings& settings
     )
-        : renderer(device, scene.world.assets), blur(create(renderer, described)),
-          host(device, *blur, hosts, kStageSize), mScene(scene),
-          mPlugin(device, renderer.scene(), plugins), mC(device) {
-        host.blurOfC = mC.blur;
-        shutter.exposureSeconds = 0.5;
-        request.view.camera = scene.camera;
-        request.view.width = kStageSize.x;
-        request.view.height = kStageSize.y;
-    }
+        : BlurStage(device, scene, settings, settings, [&](const render::Renderer& drawing) {
+              described.sceneLayout = drawing.scene().textureLayout();
+              mOwn = motion_blur::EmbeddedMotionBlur::create(described).value();
+              return mOwn.get();
+          }) {}
 
     render::FrameResult drawSharp() {
         return renderer.renderFrame(mScene.world, makeRequest(), {}).value();
@@ -346,8 +354,29 @@ class BlurStage {
         };
     }
 
+  private:
+    std::unique_ptr<motion_blur::EmbeddedMotionBlur> mOwn;
+
+    template <class FindBlur>
+    BlurStage(
+        gpu::Device& device,
+        SceneBuilder& scene,
+        const motion_blur::MotionBlurSettings& hosts,
+        const motion_blur::MotionBlurSettings& plugins,
+        const FindBlur& findBlur
+    )
+        : renderer(device, scene.world.assets), blur(findBlur(renderer)),
+          host(device, *blur, hosts, kStageSize), mScene(scene),
+          mPlugin(device, renderer.scene(), plugins) {
+        shutter.exposureSeconds = 0.5;
+        request.view.camera = scene.camera;
+        request.view.width = kStageSize.x;
+        request.view.height = kStageSize.y;
+    }
+
+  public:
     render::Renderer renderer;
-    std::unique_ptr<motion_blur::EmbeddedMotionBlur> blur;
+    motion_blur::EmbeddedMotionBlur* blur;
     HostOfTheGBuffer host;
     scene::CameraShutter shutter;
     render::FrameRequest request;
@@ -355,13 +384,6 @@ class BlurStage {
     double frameSeconds = scene::kStillFrameSeconds;
 
   private:
-    static std::unique_ptr<motion_blur::EmbeddedMotionBlur>
-    create(const render::Renderer& renderer, motion_blur::HostDevice described) {
-        if (described.rayTier != gpu::RayTier::None)
-            described.sceneLayout = renderer.scene().textureLayout();
-        return motion_blur::EmbeddedMotionBlur::create(described).value();
-    }
-
     [[nodiscard]] render::FrameRequest makeRequest() const {
         render::FrameRequest made = request;
         made.view.exposure = scene::computeExposure(shutter, seconds, frameSeconds);
@@ -370,7 +392,24 @@ class BlurStage {
 
     SceneBuilder& mScene;
     motion_blur::MotionBlurPlugin mPlugin;
-    BlurOfC mC;
+};
+
+/// Stages whose blurs of either interface the tests of a suite share.
+class StagedTest : public EmbeddedTest {
+  protected:
+    static void TearDownTestSuite() {
+        sBlurOfC.reset();
+        EmbeddedTest::TearDownTestSuite();
+    }
+
+    static ShutterBlur* blurOfC() {
+        if (!sBlurOfC)
+            sBlurOfC.emplace(device());
+        return sBlurOfC->blur;
+    }
+
+  private:
+    static inline std::optional<BlurOfC> sBlurOfC;
 };
 
 /// The host's pictures by both interfaces and in place are the plugin's, bit for bit.

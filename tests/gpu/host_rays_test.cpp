@@ -40,21 +40,8 @@ constexpr double kRayYFov = 1.0; ///< radians
 /// reveal, so that the picture differs from the engine's.
 class RevealHost {
   public:
-    RevealHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout) : mDevice(device) {
-        gpu::ComputePipelineDesc desc;
-        desc.name = "the host's rays";
-        desc.spirv = motion_blur_reveal_comp;
-        desc.interface.bindings.assign(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-        desc.interface.bindings.insert(
-            desc.interface.bindings.end(), 3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-        );
-        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
-        desc.interface.sceneLayout = sceneLayout;
-        desc.interface.pushConstantBytes = sizeof(motion_blur::PassParams);
-        desc.specialization = {0u};
-        mPipeline.emplace(device, desc);
-    }
+    RevealHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
+        : mNearest(device.nearestSampler()), mShader(device, describe(sceneLayout)) {}
 
     /// Answers with rays through the scene of `inputs`, which then has none.
     void take(motion_blur::HostInputs& inputs) {
@@ -67,8 +54,20 @@ class RevealHost {
     uint32_t calls = 0;
 
   private:
-    gpu::Image adopt(VkImage image, VkFormat format, VkImageUsageFlags usage) {
-        return gpu::Image::adopt(mDevice, "host's", image, {kRaySize.x, kRaySize.y, format, usage});
+    static gpu::ComputePipelineDesc describe(VkDescriptorSetLayout sceneLayout) {
+        gpu::ComputePipelineDesc desc;
+        desc.name = "the host's rays";
+        desc.spirv = motion_blur_reveal_comp;
+        desc.interface.bindings.assign(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+        desc.interface.bindings.insert(
+            desc.interface.bindings.end(), 3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+        );
+        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+        desc.interface.sceneLayout = sceneLayout;
+        desc.interface.pushConstantBytes = sizeof(motion_blur::PassParams);
+        desc.specialization = {0u};
+        return desc;
     }
 
     void record(
@@ -83,71 +82,63 @@ class RevealHost {
         auto own = params.getMethod<shader::HybridParams>();
         own.frame = gpu::splitAddress(rays.frameConstants);
         params.setMethod(own);
-        constexpr VkImageUsageFlags kRead = VK_IMAGE_USAGE_SAMPLED_BIT;
-        constexpr VkImageUsageFlags kWrite = VK_IMAGE_USAGE_STORAGE_BIT;
         constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
         constexpr VkFormat kFloat = VK_FORMAT_R32G32B32A32_SFLOAT;
-        const auto keep = [&](VkImage image, VkFormat format, VkImageUsageFlags usage) {
-            return mImages.emplace_back(adopt(image, format, usage)).view();
-        };
-        const VkImageView color = keep(inputs.color.image, kHalf, kRead);
-        const VkImageView motionDepth = keep(inputs.motionDepth.image, kFloat, kRead);
-        const VkImageView ids = keep(inputs.entityId.image, VK_FORMAT_R32_UINT, kRead);
         gpu::BindingList bindings;
-        bindings.sampled(color, mDevice.nearestSampler())
-            .sampled(motionDepth, mDevice.nearestSampler())
-            .sampled(ids, mDevice.nearestSampler())
-            .sampled(color, mDevice.nearestSampler()); // the mask, which no pixel shares a ray by
-        keep(task.color.image, kHalf, kWrite);
-        bindings.storage(mImages.back());
-        keep(task.motionDepth.image, kFloat, kWrite);
-        bindings.storage(mImages.back());
-        keep(task.entityId.image, VK_FORMAT_R32_UINT, kWrite);
-        bindings.storage(mImages.back());
+        const auto adopt = [&](VkImage image, VkFormat format, VkImageUsageFlags usage) -> auto& {
+            return mShader.adopt(image, {kRaySize.x, kRaySize.y}, format, usage);
+        };
+        const auto read = [&](VkImage image, VkFormat format) {
+            bindings.sampled(adopt(image, format, VK_IMAGE_USAGE_SAMPLED_BIT).view(), mNearest);
+        };
+        read(inputs.color.image, kHalf);
+        read(inputs.motionDepth.image, kFloat);
+        read(inputs.entityId.image, VK_FORMAT_R32_UINT);
+        read(inputs.color.image, kHalf); // the mask, which no pixel shares a ray by
+        const auto write = [&](VkImage image, VkFormat format) {
+            bindings.storage(adopt(image, format, VK_IMAGE_USAGE_STORAGE_BIT));
+        };
+        write(task.color.image, kHalf);
+        write(task.motionDepth.image, kFloat);
+        write(task.entityId.image, VK_FORMAT_R32_UINT);
         bindings.buffer(task.list).accelerationStructure(rays.tlas);
-        gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
-        frame.beginIn(task.commands);
-        frame.bind(*mPipeline, bindings, &params, sizeof(params), rays.scene);
+        mShader.bind(task.commands, bindings, params, rays.scene);
         vkCmdDispatchIndirect(task.commands, task.groups, 0);
     }
 
-    gpu::Device& mDevice;
-    std::optional<gpu::Pipeline> mPipeline;
-    std::deque<gpu::Image> mImages; ///< until the GPU is done
-    std::vector<std::unique_ptr<gpu::Frame>> mFrames;
+    VkSampler mNearest;
+    test::HostShader mShader;
 };
 
 /// Rays of the host's through its own tables of the scene.
 class SampleHost {
   public:
-    SampleHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout) : mDevice(device) {
-        gpu::ComputePipelineDesc desc;
-        desc.name = "the host's rays";
-        desc.spirv = answer_samples_comp;
-        desc.interface.bindings = {
-            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-            VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
-            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-        desc.interface.sceneLayout = sceneLayout;
-        desc.interface.pushConstantBytes = sizeof(Push);
-        mPipeline.emplace(device, desc);
-    }
+    SampleHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
+        : mShader(
+              device,
+              {.name = "the host's rays",
+               .spirv = answer_samples_comp,
+               .interface =
+                   {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+                     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                    sizeof(Push),
+                    sceneLayout}}
+          ) {}
 
     void answer(const graph::TimedRays& rays, const SampleTask& task) {
         ++calls;
-        const Push push{
-            gpu::splitAddress(rays.frameConstants),
-            gpu::splitAddress(rays.timedConstants),
-            task.lensPlaces ? focusDistance : 0.0f};
         gpu::BindingList bindings;
         bindings.buffer(task.list)
             .buffer(task.answers)
             .accelerationStructure(rays.tlas)
             .buffer(task.lensPlaces ? task.lensPlaces : task.answers);
-        gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
-        frame.beginIn(task.commands);
-        frame.bind(*mPipeline, bindings, &push, sizeof(push), rays.textures);
+        const Push push{
+            gpu::splitAddress(rays.frameConstants),
+            gpu::splitAddress(rays.timedConstants),
+            task.lensPlaces ? focusDistance : 0.0f};
+        mShader.bind(task.commands, bindings, push, rays.textures);
         vkCmdDispatchIndirect(task.commands, task.groups, 0);
     }
 
@@ -161,15 +152,13 @@ class SampleHost {
         float focusDistance;
     };
 
-    gpu::Device& mDevice;
-    std::optional<gpu::Pipeline> mPipeline;
-    std::vector<std::unique_ptr<gpu::Frame>> mFrames; ///< until the GPU is done
+    test::HostShader mShader;
 };
 
-class OwnRays : public test::EmbeddedTest {
+class OwnRays : public test::StagedTest {
   protected:
     void SetUp() override {
-        EmbeddedTest::SetUp();
+        StagedTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
         if (!device().hasRayQuery())
@@ -184,14 +173,18 @@ class OwnRays : public test::EmbeddedTest {
         );
     }
 
+    [[nodiscard]] motion_blur::HostDevice hostOfSuite() const override {
+        motion_blur::HostDevice host = describeHost(); // of no ray tier
+        host.measures = true;
+        return host;
+    }
+
     /// The same frame by the plugin's adaptive, and by a host whose method may be another.
     /// \param isAnswered by the host's rays
     StagedFrame drawSamples(
         const MotionBlurSettings& plugins, const MotionBlurSettings& hosts, bool isAnswered = true
     ) {
-        motion_blur::HostDevice described = describeHost();
-        described.measures = true;
-        BlurStage stage(device(), mScene, described, hosts, plugins);
+        BlurStage stage(device(), mScene, *mBlur, blurOfC(), hosts, plugins);
         SampleHost rays(device(), stage.renderer.scene().textureLayout());
         test::MotionDescriber describer(kRayInstants);
         stage.declareMotion(describer);
@@ -233,7 +226,7 @@ class OwnRays : public test::EmbeddedTest {
 
 TEST_F(OwnRays, RevealsOfTheHostGiveTheBitsOfOursAndAreInDumps) {
     const MotionBlurSettings settings = settingsOf("hybrid");
-    BlurStage stage(device(), mScene, describeHost(), settings, settings); // of no ray tier
+    BlurStage stage(device(), mScene, *mBlur, blurOfC(), settings, settings);
     RevealHost rays(device(), stage.renderer.scene().textureLayout());
     stage.host.takeRays = [&](HostInputs& inputs) { rays.take(inputs); };
     stage.request.intermediates = {"mask"};
@@ -303,68 +296,56 @@ TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
     EXPECT_TRUE(test::sameBits(drawn.output, drawn.result.color));
 }
 
-constexpr uint32_t kRayRows = 3; // the wall's is the last
+using EmbeddedIds = test::EmbeddedTest;
 
-class EmbeddedIds : public test::EmbeddedTest {
-  protected:
-    void SetUp() override {
-        EmbeddedTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
-            GTEST_SKIP() << "the device traces no rays";
-    }
-
-    /// Draws `hybrid` for a host whose table ends after `rowCount` rows: rows beyond are invalid.
-    static image::Image
-    draw(uint32_t rowCount, const MotionBlurSettings& settings = settingsOf("hybrid")) {
-        test::SceneBuilder scene;
-        test::buildMovers(scene);
-        motion_blur::HostDevice described = describeHost();
-        described.rayTier = device().info().rayTier;
-        // One of the renderer's own effects has to request rays: the plugin.
-        BlurStage stage(device(), scene, described, settings, settings);
-        stage.host.blurOfC = nullptr;
-        std::vector<gpu::Buffer> tables; // of the frame
-        stage.host.changeRays = [&](const render::PostContext& context,
-                                    motion_blur::HostRays& rays) {
-            EXPECT_EQ(context.frame.entities.size(), kRayRows);
-            std::vector<shader::EntityRow> rows = context.frame.entities;
-            for (uint32_t i = rowCount; i < rows.size(); ++i)
-                std::memset(&rows[i], 0xFF, sizeof(rows[i]));
-            const auto upload = [&](const void* data, size_t bytes) {
-                tables.emplace_back(
-                    device(),
-                    "host",
-                    bytes,
-                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                    gpu::MemoryUse::Stream
-                );
-                tables.back().writeBytes(data, bytes, 0);
-                return tables.back().address();
+TEST_F(EmbeddedIds, IdsWithoutRowsRevealNothingAndAHitEntityMayHaveNone) {
+    if (!device().hasRays())
+        GTEST_SKIP() << "the device traces no rays";
+    constexpr uint32_t kRows = 3; // the wall's is the last
+    test::SceneBuilder scene;
+    test::buildMovers(scene);
+    motion_blur::HostDevice described = describeHost();
+    described.rayTier = device().info().rayTier;
+    // One of the renderer's own effects has to request rays: the plugin.
+    BlurStage stage(device(), scene, described, settingsOf("hybrid"));
+    std::deque<gpu::Buffer> tables;
+    // Of a host whose table ends after so many rows: rows beyond are invalid.
+    const auto draw = [&](uint32_t rowCount) {
+        stage.host.changeInputs =
+            [&, rowCount](const render::PostContext& context, HostInputs& inputs) {
+                EXPECT_EQ(context.frame.entities.size(), kRows);
+                std::vector<shader::EntityRow> rows = context.frame.entities;
+                for (uint32_t i = rowCount; i < rows.size(); ++i)
+                    std::memset(&rows[i], 0xFF, sizeof(rows[i]));
+                const auto upload = [&](const void* data, size_t bytes) {
+                    gpu::Buffer& table = tables.emplace_back(
+                        device(),
+                        "host",
+                        bytes,
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                        gpu::MemoryUse::Stream
+                    );
+                    table.writeBytes(data, bytes, 0);
+                    return table.address();
+                };
+                shader::FrameConstants constants = context.frame.constants;
+                constants.entities =
+                    gpu::splitAddress(upload(rows.data(), rows.size() * sizeof(rows[0])));
+                constants.entityCount = rowCount;
+                inputs.rays.frameConstants = upload(&constants, sizeof(constants));
             };
-            shader::FrameConstants constants = context.frame.constants;
-            constants.entities =
-                gpu::splitAddress(upload(rows.data(), rows.size() * sizeof(rows[0])));
-            constants.entityCount = rowCount;
-            rays.frameConstants = upload(&constants, sizeof(constants));
-        };
         return stage.draw().output;
-    }
-};
-
-TEST_F(EmbeddedIds, NothingIsRevealedWithoutRows) {
-    MotionBlurSettings revealsNothing = settingsOf("hybrid");
-    revealsNothing.revealTraversal = motion_blur::RevealTraversal::Stepping;
-    revealsNothing.recursionLimit = 1;
-    const image::Image kept = draw(kRayRows, revealsNothing);
-    EXPECT_FALSE(test::sameBits(draw(kRayRows), kept)) << "rays reveal something";
-    EXPECT_TRUE(test::sameBits(draw(0), kept));
-}
-
-TEST_F(EmbeddedIds, AHitEntityMayHaveNoRow) {
-    // Rays behind the movers meet the wall.
-    const image::Image drawn = draw(kRayRows - 1);
-    EXPECT_TRUE(test::allFinite(drawn));
-    EXPECT_FALSE(test::sameBits(drawn, draw(kRayRows)));
+    };
+    const image::Image all = draw(kRows);
+    const image::Image none = draw(0);
+    const image::Image withoutWall = draw(kRows - 1); // which rays behind the movers meet
+    EXPECT_TRUE(test::allFinite(withoutWall));
+    EXPECT_FALSE(test::sameBits(withoutWall, all));
+    stage.host.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
+    stage.host.settings.recursionLimit = 1;
+    const image::Image kept = draw(kRows); // which reveals nothing
+    EXPECT_FALSE(test::sameBits(all, kept)) << "rays reveal something";
+    EXPECT_TRUE(test::sameBits(none, kept));
 }
 
 } // namespace

@@ -202,13 +202,6 @@ TEST(HostCheck, ValidWorldsAreNotReported) {
     EXPECT_EQ(check(Shaking()), "");
 }
 
-TEST(HostCheck, MatricesThatAreTheSameAreNamedWhereTheMoverMoves) {
-    const Change change = [](CheckFacts& facts, const CheckedWorld&, double) {
-        facts.matrices[0] = facts.matrices[1];
-    };
-    EXPECT_NE(check(CheckedWorld(), change).find("the same at all keys"), std::string::npos);
-}
-
 /// Sentences for a deforming mover whose displacements are changed.
 std::string checkDeformedBy(math::vec4 (*change)(const math::vec4&)) {
     std::string all;
@@ -261,7 +254,7 @@ TEST(HostCheck, AMoverBehindAWallIsNotCountedAsVisible) {
     EXPECT_NE(check(CheckedWorld(), before).find("shows none of"), std::string::npos);
 }
 
-TEST(HostCheck, OnePixelHasOneDepth) {
+TEST(HostCheck, OnePixelHasOneDepthAndSharesAreRoundedAsPeopleWriteThem) {
     CheckedFrame frame;
     frame.facts.picture = {1, 1};
     frame.totals.depthLeast = frame.totals.depthMost = std::bit_cast<uint32_t>(0.5f);
@@ -271,9 +264,6 @@ TEST(HostCheck, OnePixelHasOneDepth) {
     frame.facts.picture = {64, 64};
     checkTotals(frame, findings);
     EXPECT_TRUE(hasFound(findings, {CheckKind::DepthEqual}));
-}
-
-TEST(HostCheck, SharesAreRoundedAsPeopleWriteThem) {
     EXPECT_EQ(describeShare(1.0), "100 %");
     EXPECT_EQ(describeShare(0.999), "100 %");
     EXPECT_EQ(describeShare(0.4512), "45 %");

@@ -122,7 +122,7 @@ TEST(HostConvention, RawDepthOfEachProjectionIsMetres) {
     }
 }
 
-TEST(HostConvention, TheSkyIsKnownByItsValue) {
+TEST(HostConvention, TheSkyIsKnownByItsValueAndAnInvalidDepthIsTheSky) {
     HostConvention convention = makeConvention({"", forward()});
     convention.depth.skyValue = 1.0f;
     const shader::PrepareTable raw = makePrepareTable(convention, kPicture);
@@ -138,9 +138,6 @@ TEST(HostConvention, TheSkyIsKnownByItsValue) {
         makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)}), kPicture
     );
     EXPECT_EQ(shader::metresOfDepth(infinite, 0.0f), shader::kSkyDepth);
-}
-
-TEST(HostConvention, AnInvalidDepthIsTheSky) {
     const shader::PrepareTable table = makePrepareTable(makeConvention({"", forward()}), kPicture);
     for (const float value : {kNaN, kInfinity, -kInfinity, 3.0f})
         EXPECT_EQ(shader::metresOfDepth(table, value), shader::kSkyDepth) << value;
@@ -389,14 +386,11 @@ TEST(PrepareWay, PassesThroughBothEndsAndThePixelItself) {
     }
 }
 
-TEST(PrepareWay, TheMotionIsStraightIfTheRasterIsAtAnEnd) {
+TEST(PrepareWay, TheMotionIsStraightIfTheRasterIsAtAnEndAndMarkedIfNotFinite) {
     for (const float rasterTime : {0.0f, 0.05f, 0.95f, 1.0f, kNaN, kInfinity, -kInfinity, 1e30f})
         EXPECT_EQ(
             shader::unpackWay(shader::prepareWay({-8, 0, 2, 1}, rasterTime)).bend, math::vec2(0.0f)
         ) << rasterTime;
-}
-
-TEST(PrepareWay, NonFiniteMotionIsMarked) {
     for (int channel = 0; channel < 4; ++channel)
         for (const float bad : {kNaN, kInfinity, -kInfinity}) {
             math::vec4 ends(1.0f);

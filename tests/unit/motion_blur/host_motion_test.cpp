@@ -327,13 +327,12 @@ TEST_F(HostInstantsTest, ThroughALensALastRasterOfTheSameAddsNothing) {
     EXPECT_TRUE(compute(&deforming).layers.last.has_value());
 }
 
-TEST_F(HostInstantsTest, MoversWithoutTransformsAreFoundByMotionVectors) {
+TEST_F(
+    HostInstantsTest, MoversWithoutTransformsAreFoundByMotionVectorsAndSingularOnesAreInvisible
+) {
     movers = {{2, {}}};
     motion.movers = movers;
     EXPECT_EQ(compute().layers.raster.movers.at(2), shader::kDeformedMover);
-}
-
-TEST_F(HostInstantsTest, ASingularTransformIsInvisible) {
     addTumbler();
     for (dmat4& matrix : matrices)
         matrix[0] = dvec4(0.0);
