@@ -369,6 +369,39 @@ Guesses beginGuesses(PixelSearch pixel) {
     );
 }
 
+/// The layers' searches as one loop, for shaders that contain much else: compilers write out every call
+/// of searchLayer(), and their time grows faster than what they write.
+/// \param slots a bit for each candidate of this frame's raster to search
+Seen searchInTurn(
+    PixelSearch pixel, uint instant, uint slots, inout Guesses guesses, inout Doubt doubt
+) {
+    Seen seen = pixel.still;
+    LayerMotion motion = pixel.raster;
+    Guess guess = guesses.raster;
+    uint layer = kRasterLayer;
+    [[dont_unroll]] while (true) {
+        searchLayer(layer, motion, pixel, instant, slots, guess, seen, doubt);
+        if (layer == kRasterLayer) guesses.raster = guess;
+        if (kHasSecond && layer == kSecondLayer) guesses.second = guess;
+        if (layer == kLastLayer) guesses.last = guess;
+        bool isLast = layer == kLastLayer || !has(method, kHasLastLayer);
+        if (kHasSecond && layer == kRasterLayer) isLast = false;
+        if (seen.isFound || isLast) return seen;
+        slots = ~0u;
+        if (kHasSecond && layer == kRasterLayer) {
+            layer = kSecondLayer;
+            motion = pixel.second;
+            guess = guesses.second;
+            seen = pixel.secondStill;
+        } else {
+            layer = kLastLayer;
+            motion = pixel.last;
+            guess = guesses.last;
+            seen = pixel.lastStill;
+        }
+    }
+}
+
 /// \param instant of the tables
 Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
     if (kHasCrowds && pixel.isCrowded) return searchCrowds(pixel, instant);
@@ -388,6 +421,7 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
         }
         slots = blockSample.perY;
     }
+    if (kFindsEdges) return searchInTurn(pixel, instant, slots, guesses, doubt);
     Seen seen = pixel.still;
     searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);
     if (kHasSecond && !seen.isFound) {
