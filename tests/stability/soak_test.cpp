@@ -164,7 +164,7 @@ ordered_json makeSoakSettings() {
 
 using math::dvec3;
 
-constexpr uint32_t kStorm = 20;
+constexpr uint32_t kStorm = 50;
 constexpr uint32_t kSpawnFrames = 12; ///< from one spawn to the next
 constexpr double kMaxMetres = 1.5;    ///< longest side of a mesh that is copied
 constexpr double kMaxSpeed = 4.0;     ///< m/s
