@@ -41,7 +41,7 @@ PROGRAMS = {"test_gpu": "*", "test_gpu_ui": "*", "test_image": "*",
 BROKEN = ("ParticleLaw.ACameraPanBlursParticlesLikeTheWorld",
           "ParticleLaw.LightThatThePictureCannotHoldStaysFinite")
 # Not run: up to minutes each, mostly because the driver compiles `resolved` again for each picture.
-SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.WhatIsPreparedAhead*", "InstantNoises.*",
+SLOW = ("BlendedLayerLaw.*", "CInterface.EachPreset*", "CInterface.PreparationAhead*", "InstantNoises.*",
         "MethodSettingsLaw.*", "ParticleLaw.*Instant*", "ParticleLaw.OverGlass*", "PhaseLaw.*",
         "PictureDrawerTest.AFrameInWhichSomethingJumps*", "Resolved*")
 
@@ -146,8 +146,9 @@ def run_tests(program, suites, folder):
 def check_bits(folder):
     """Sentences on pictures whose bits are not those of another run, or those that were pinned."""
     variables = {**environment(SWIFTSHADER, folder), "SHUTTER_EXECUTABLE": str(BUILD / "shutter"),
-                 "SHUTTER_ASSETS": str(BUILD / "assets"), "SHUTTER_PIN_DEVICE": "SwiftShader",
-                 "PYTHONDONTWRITEBYTECODE": "1"}
+                 "SHUTTER_ASSETS": str(BUILD / "assets"),
+                 "SHUTTER_GENERATOR": str(BUILD / "shutter_generate_assets"),
+                 "SHUTTER_PIN_DEVICE": "SwiftShader", "PYTHONDONTWRITEBYTECODE": "1"}
     for name, test in (("two runs", ("traces_test.py", "Traces.test_two_runs_write_the_same")),
                        ("pins", ("pinned_test.py",))):
         began = time.monotonic()
