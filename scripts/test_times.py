@@ -115,7 +115,7 @@ def main():
                         help="also run the checks of .ci/run: format, sanitizers, fuzzers")
     parser.add_argument("--before", type=pathlib.Path, metavar="FILE",
                         help="an earlier result, whose times become a column")
-    parser.add_argument("--no-tests", action="store_true")
+    parser.add_argument("--no-tests", action="store_true", help="run no suites: with --build, --checks")
     options, ctest = parser.parse_known_args()
     if options.j < 1:
         parser.error("-j takes a number of at least 1")

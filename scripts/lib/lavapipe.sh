@@ -35,9 +35,9 @@ force_lavapipe() {
     export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}}
 }
 
-# Has lavapipe compile shaders without LLVM's optimisations: for many small pictures. They keep their bits
-# (tests/determinism); `adaptive` on a new machine takes 26 s of processor instead of 83, and pixels take
-# about half as long again.
+# Makes lavapipe compile shaders without LLVM's optimisations, which pays for many small pictures. They
+# keep their bits (tests/determinism). Without compiled shaders at hand, a picture by `adaptive` takes 26 s
+# of processor instead of 83; drawing takes about half as long again.
 compile_shaders_quickly() {
     export GALLIVM_PERF=${GALLIVM_PERF:-nopt}
 }

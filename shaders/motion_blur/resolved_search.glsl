@@ -369,8 +369,8 @@ Guesses beginGuesses(PixelSearch pixel) {
     );
 }
 
-/// The layers' searches as one loop, for shaders that contain much else: compilers write out every call
-/// of searchLayer(), and their time grows faster than what they write.
+/// The searches of all layers as one loop, for shaders that contain much else: compilers inline every call of
+/// searchLayer(), and their time grows faster than the code.
 /// \param slots a bit for each candidate of this frame's raster to search
 Seen searchInTurn(
     PixelSearch pixel, uint instant, uint slots, inout Guesses guesses, inout Doubt doubt

@@ -193,7 +193,7 @@ TEST_F(Film, PartsOfAnotherNumberTakeOverWhatWasDrawn) {
     const auto before = fs::last_write_time(path("parts/f_0.exr"));
     EXPECT_FALSE(fs::exists(path("parts/f_-1.exr")));
     EXPECT_FALSE(fs::exists(path("parts/f_1.exr")));
-    // Of frames 0, 2, 4, ... every third is there.
+    // Every third of the frames 0, 2, 4, ... is complete.
     EXPECT_EQ(
         expectSuccess(draw("render", "parts/f_%d.exr", {"--part", "2/2"})).out,
         "parts/f_%d.exr: 4 of 12 frames are complete on disk and skipped (--restart draws them)\n"

@@ -140,8 +140,8 @@ constexpr const char* kDriftingScene =
     "AAAAAAAAAAAAAEBAAAAAAAAAAAA="
     R"("}]})";
 
-/// Of kDriftingScene, whose triangle now drifts away from a camera that may focus on it, in
-/// front of another one that rests.
+/// kDriftingScene with a camera that may focus on its triangle, which drifts away from it in front
+/// of a static one.
 std::string makeFocusScene(const std::string& camera) {
     std::string scene = kDriftingScene;
     const auto replace = [&](std::string_view from, const std::string& to) {

@@ -27,7 +27,7 @@ struct Cases {
         return all.emplace_back(CheckCase{name, sentence, std::move(change)});
     }
 
-    /// Of a host that is right.
+    /// Adds a host whose inputs are valid.
     CheckCase& operator()(const std::string& name, Change change) {
         return (*this)(name, "", std::move(change));
     }
@@ -37,7 +37,7 @@ struct Cases {
 
 // Changes that several cases share.
 
-/// Of a host of "resolved".
+/// The change, for a host that draws by `resolved`.
 Change resolved(Change change) {
     return [change = std::move(change)](Given& g) {
         g.isResolved = true;

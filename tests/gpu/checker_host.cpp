@@ -296,7 +296,7 @@ core::Status drawAll(gpu::Device& device, CheckedScene& scene) {
     return {};
 }
 
-/// Of the suite's checker, since they were last read.
+/// Sentences of the suite's checker since they were last read.
 std::vector<std::string>& reportedSentences() {
     static std::vector<std::string> reported;
     return reported;

@@ -407,7 +407,7 @@ class EmbeddedBlended : public PaintedTest {
         return picture;
     }
 
-    /// Of one texel everywhere.
+    /// A layer that has the same texel everywhere.
     HostImage makeLayer(const vec4& texel, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT) {
         return makeTexels(format, kPaintedSize, std::vector<vec4>(kPixels, texel)).describe();
     }

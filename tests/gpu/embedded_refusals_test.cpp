@@ -55,7 +55,7 @@ void expectNamed(ShutterBlurResult result, const std::string& part) {
     expectNamed(core::Status(core::Error{shutterBlurGetMessage()}), part);
 }
 
-/// Of the method with the fewest pipelines, which checks as the others do.
+/// Settings of the method with the fewest pipelines: every method makes the same checks.
 MotionBlurSettings plain() {
     return settingsOf("own_velocity");
 }

@@ -309,7 +309,7 @@ TEST_F(EmbeddedIds, IdsWithoutRowsRevealNothingAndAHitEntityMayHaveNone) {
     // One of the renderer's own effects has to request rays: the plugin.
     BlurStage stage(device(), scene, described, settingsOf("hybrid"));
     std::deque<gpu::Buffer> tables;
-    // Of a host whose table ends after so many rows: rows beyond are invalid.
+    // Draws a host whose table ends after `rowCount` rows: later rows are invalid.
     const auto draw = [&](uint32_t rowCount) {
         stage.host.changeInputs =
             [&, rowCount](const render::PostContext& context, HostInputs& inputs) {
