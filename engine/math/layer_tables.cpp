@@ -18,7 +18,59 @@ dmat4 withoutTranslation(const dmat4& matrix) {
     return result;
 }
 
+/// Less than this is what rounding makes of none, pixels * metres or pixels / metre.
+constexpr float kLeastParallax = 1.0e-6f;
+
+/// Of what one affine map moves, pixels * metres or pixels / metre.
+float findParallax(const shader::InstantMotion& motion, const vec2& sizePx, bool isPerspective) {
+    const auto& rows = motion.instantFromRaster;
+    if (rows[2] == vec4(0.0f))
+        return 0.0f;
+    if (!isPerspective)
+        return glm::length(vec2(rows[0].z, rows[1].z));
+    const vec3 perAlong(rows[0].w, rows[1].w, rows[2].w);
+    float greatest = 0.0f;
+    for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
+        const vec3 at(corner * sizePx, 1.0f);
+        const vec3 farAway(
+            glm::dot(vec3(rows[0]), at), glm::dot(vec3(rows[1]), at), glm::dot(vec3(rows[2]), at)
+        );
+        if (farAway.z <= 0.0f)
+            continue; // behind the camera by then
+        const vec2 place = vec2(farAway) / farAway.z;
+        const vec2 way = vec2(perAlong) - place * perAlong.z;
+        greatest = std::max(greatest, glm::length(way) / farAway.z);
+    }
+    return greatest;
+}
+
 } // namespace
+
+std::vector<float>
+findParallaxes(const LayerTables& layer, const InstantLayers& exposure, const uvec2& sizePx) {
+    const bool hasLens = !exposure.lens.empty();
+    const size_t perMover = exposure.times.size() / (hasLens ? shader::kLensSets : 1);
+    float ofLens = 0.0f;
+    for (const vec4& place : exposure.lens)
+        ofLens = std::max(ofLens, glm::length(vec2(place.z, place.w)));
+    std::vector<float> byMover(layer.motions.size() / perMover);
+    for (size_t mover = 0; mover < byMover.size(); ++mover) {
+        const shader::InstantMotion* motions = &layer.motions[mover * perMover];
+        float greatest = 0.0f;
+        for (const size_t instant : {size_t{0}, perMover / 2, perMover - 1})
+            greatest = std::max(
+                greatest, findParallax(motions[instant], vec2(sizePx), exposure.isPerspective)
+            );
+        const float parallax = greatest + ofLens;
+        byMover[mover] = std::isfinite(parallax) && parallax > kLeastParallax ? parallax : 0.0f;
+    }
+    byMover[shader::kSkyMover] = 0.0f; // it has no depth
+    std::vector<float> byRow(layer.movers.size());
+    for (size_t row = 0; row < byRow.size(); ++row)
+        if (layer.movers[row] < byMover.size())
+            byRow[row] = byMover[layer.movers[row]];
+    return byRow;
+}
 
 dmat4 pictureFromView(const dmat4& clipFromView, const uvec2& sizePx, const dvec2& jitterPx) {
     const dmat4 rows = glm::transpose(clipFromView);

@@ -70,6 +70,13 @@ struct InstantMotions {
     std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
     /// A tile may see more entities that move than its list holds (mayCrowdTiles()).
     bool mayCrowd = true;
+    /// An entity may show several surfaces that move differently, one behind the other
+    /// (mayHideThemselves()).
+    bool mayHide = true;
+
+    /// Tiles may need more than the usual search: they are crowded, or have such an entity.
+    [[nodiscard]] bool isGeneral() const { return mayCrowd || mayHide; }
+
     /// For the layers in which something deforms. Empty: motion vectors are followed, of this
     /// frame's raster alone.
     DrawWays drawWays;

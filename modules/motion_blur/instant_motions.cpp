@@ -4,6 +4,7 @@
 #include "engine/gpu/vulkan.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,27 +32,37 @@ class Layout {
 
 struct PlacedLayer {
     const math::LayerTables* tables = nullptr;
+    std::vector<float> parallaxesByRow;
     VkDeviceSize movers = 0;
     VkDeviceSize motions = 0;
     VkDeviceSize rasterRows = 0;
+    VkDeviceSize parallaxes = 0;
 };
 
-PlacedLayer place(Layout& layout, const math::LayerTables& tables) {
-    return {
-        &tables,
-        layout.add(tables.movers),
-        layout.add(tables.motions),
-        layout.add(tables.rasterRows)};
+PlacedLayer place(
+    Layout& layout,
+    const math::LayerTables& tables,
+    const math::InstantLayers& exposure,
+    glm::uvec2 sizePx
+) {
+    PlacedLayer placed{&tables, math::findParallaxes(tables, exposure, sizePx)};
+    placed.movers = layout.add(tables.movers);
+    placed.motions = layout.add(tables.motions);
+    placed.rasterRows = layout.add(tables.rasterRows);
+    placed.parallaxes = layout.add(placed.parallaxesByRow);
+    return placed;
 }
 
 shader::LayerMotion write(gpu::Buffer& buffer, const PlacedLayer& layer) {
     buffer.write(std::span<const uint32_t>(layer.tables->movers), layer.movers);
     buffer.write(std::span<const shader::InstantMotion>(layer.tables->motions), layer.motions);
+    buffer.write(std::span<const float>(layer.parallaxesByRow), layer.parallaxes);
     return {
         gpu::splitAddress(buffer.address() + layer.movers),
         gpu::splitAddress(buffer.address() + layer.motions),
         static_cast<uint32_t>(layer.tables->movers.size() - 1),
-        layer.tables->isStatic ? 1u : 0u};
+        layer.tables->isStatic ? 1u : 0u,
+        gpu::splitAddress(buffer.address() + layer.parallaxes)};
 }
 
 glm::uvec2 writeRasterRows(gpu::Buffer& buffer, const PlacedLayer& layer) {
@@ -74,14 +85,24 @@ bool mayCrowd(const math::LayerTables& layer) {
     return false;
 }
 
+/// Whether a surface's depth decides how far it moves.
+bool moves(const PlacedLayer& layer) {
+    return std::any_of(
+        layer.parallaxesByRow.begin(),
+        layer.parallaxesByRow.end(),
+        [](float parallax) { return parallax > 0.0f; }
+    );
+}
+
 bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
     return image.handle() && image.desc().width == sizePx.x && image.desc().height == sizePx.y;
 }
 
 } // namespace
 
-VkDeviceAddress
-writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer) {
+WrittenLayers writeInstantLayers(
+    gpu::Device& device, const math::InstantLayers& layers, glm::uvec2 sizePx, gpu::Buffer& buffer
+) {
     Layout layout;
     std::vector<shader::InstantMotions> head(1);
     const VkDeviceSize headAt = layout.add(head);
@@ -89,13 +110,13 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     const VkDeviceSize lens = layout.add(layers.lens);
     const VkDeviceSize lensReaches = layout.add(layers.lensReaches);
     const VkDeviceSize lensPlaces = layout.add(layers.lensPlaces);
-    const PlacedLayer raster = place(layout, layers.raster);
+    const PlacedLayer raster = place(layout, layers.raster, layers, sizePx);
     std::optional<PlacedLayer> second;
     if (layers.second)
-        second = place(layout, *layers.second);
+        second = place(layout, *layers.second, layers, sizePx);
     std::optional<PlacedLayer> last;
     if (layers.last)
-        last = place(layout, *layers.last);
+        last = place(layout, *layers.last, layers, sizePx);
     if (buffer.bytes() < layout.bytes())
         buffer = gpu::Buffer(
             device,
@@ -127,7 +148,8 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     head[0].aperture = layers.aperture;
     head[0].isPerspective = layers.isPerspective ? 1 : 0;
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);
-    return buffer.address() + headAt;
+    const bool mayHide = moves(raster) || (second && moves(*second)) || (last && moves(*last));
+    return {buffer.address() + headAt, mayHide};
 }
 
 bool mayCrowdTiles(const math::InstantLayers& layers) {

@@ -13,11 +13,17 @@
 
 namespace shutter::motion_blur {
 
+struct WrittenLayers {
+    VkDeviceAddress table = 0; ///< shader::InstantMotions
+    bool mayHide = false;      ///< InstantMotions::mayHide
+};
+
 /// Writes all tables into the buffer, which is recreated if it is too small. The GPU must have
 /// finished with its contents. Throws gpu::DeviceError if out of memory.
-/// \return address of shader::InstantMotions
-[[nodiscard]] VkDeviceAddress
-writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer);
+/// \param sizePx of the picture
+[[nodiscard]] WrittenLayers writeInstantLayers(
+    gpu::Device& device, const math::InstantLayers& layers, glm::uvec2 sizePx, gpu::Buffer& buffer
+);
 
 /// Whether there are so many movers that a tile's list may overflow.
 [[nodiscard]] bool mayCrowdTiles(const math::InstantLayers& layers);

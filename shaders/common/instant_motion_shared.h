@@ -28,6 +28,11 @@ struct LayerMotion {
     uint rowCount; // of the entity table
     uint isStatic; // 1: static entities have the same place in the picture at all instants, as in
                    // the raster
+    /// Address of float[]: by row of the entity table, how far a surface moves within the exposure
+    /// relative to one infinitely far away, times its depth (pixels * metres), or per depth (pixels
+    /// / metre) before an orthographic camera. The greatest in the picture; 0: depth makes no
+    /// difference, or it is not rigid.
+    uvec2 parallaxes;
 };
 
 /// Where the places of the lens lie that the sets take a sample at: they move what a pinhole in its
@@ -90,9 +95,9 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
-static_assert(sizeof(shutter::shader::LayerMotion) == 24);
+static_assert(sizeof(shutter::shader::LayerMotion) == 32);
 static_assert(sizeof(shutter::shader::LensReach) == 32);
-static_assert(sizeof(shutter::shader::InstantMotions) == 152);
+static_assert(sizeof(shutter::shader::InstantMotions) == 176);
 #endif
 
 #endif

@@ -39,18 +39,19 @@ bool isHidden(PixelSearch pixel, uint sample_, vec4 lens, float along) {
     uint slots = getPart(kRasterLayer, pixel.tile, partOf(instant, pixel.partsPerInstant));
     float s = timeOf(InstantMotionsRef(method.motions), instant);
     for (; slots != 0u; slots &= slots - 1u) {
-        Candidate candidate = getCandidate(kRasterLayer, pixel.tile, uint(findLSB(slots)));
+        uint slot = uint(findLSB(slots));
+        Candidate candidate = getCandidate(kRasterLayer, pixel.tile, slot);
         // The others are farther.
         if (candidate.key == kSkyKey || alongOf(uintBitsToFloat(candidate.nearest), true) <= along)
             return false;
-        Seen found = Seen(false, kRasterLayer, kNoKey, pixel.x, 0.0f, false);
+        Seen found = Seen(false, kRasterLayer, kNoKey, pixel.x, 0.0f, false, kAnyRange);
         Guess guess = Guess(kNoKey, 0.0f);
         Doubt doubt = kNoDoubt;
         if (isDeformed(candidate.mover))
             searchPart(kRasterLayer, candidate, s, lens, pixel.x, found, doubt);
         else
             searchDepths(
-                kRasterLayer, candidate,
+                kRasterLayer, candidate, getRange(pixel, kRasterLayer, slot), candidate.key,
                 shearMotion(
                     pinholeMotion(method, pixel.raster, candidate.mover, sample_), candidate.mover, lens
                 ),

@@ -11,6 +11,7 @@
 #include "common/instant_surfaces.glsl"
 #include "common/picture_space.glsl"
 #include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/parallax_bins.glsl"
 #include "motion_blur/resolved_shared.h"
 #include "render/scene_shared.h"
 
@@ -25,6 +26,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Row
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer InstantMotionTable {
     InstantMotion motions[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ParallaxTable {
+    float parallaxes[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer InstantTable {
     float times[];
@@ -136,8 +140,14 @@ float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; 
 // four pixels that meet there are of one entity, and a bit for each sample that another surface covers
 // (render/split_samples_shared.h).
 const uint kKeyBits = 0xFFFFFFu;
+const uint kKeyBitCount = 24u;
 const uint kCornerShift = 24u;
 const uint kSampleShift = 28u;
+
+/// LayerMotion::parallaxes.
+float parallaxOf(LayerMotion layer, uint key) {
+    return key < layer.rowCount ? ParallaxTable(layer.parallaxes).parallaxes[key] : 0.0f;
+}
 
 /// Bit of a set of keys; some share one.
 uint keyBit(uint key) { return 1u << (key & 31u); }

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/pixel_ray.glsl"
 #include "motion_blur/resolved.glsl"
 #include "motion_blur/resolved_parts_shared.h"
 
@@ -37,6 +38,7 @@ layout(binding = 5) uniform usampler2D uEdgeSurface; // with kHasEdges
 shared uint sKeys[kCandidatesPerTile];
 shared uint sNearest[kCandidatesPerTile];
 shared uint sFarthest[kCandidatesPerTile];
+shared uint sBins[2][kCandidatesPerTile];
 shared int sLowX[kCandidatesPerTile];
 shared int sLowY[kCandidatesPerTile];
 shared int sHighX[kCandidatesPerTile];
@@ -47,6 +49,8 @@ shared uint sIsFull;  // 1: there are more
 void note(uint slot, Extent extent) {
     atomicMin(sNearest[slot], floatBitsToUint(extent.depths.x));
     atomicMax(sFarthest[slot], floatBitsToUint(extent.depths.y));
+    if (extent.bins.x != 0u) atomicOr(sBins[0][slot], extent.bins.x);
+    if (extent.bins.y != 0u) atomicOr(sBins[1][slot], extent.bins.y);
     atomicMin(sLowX[slot], extent.low.x);
     atomicMin(sLowY[slot], extent.low.y);
     atomicMax(sHighX[slot], extent.high.x);
@@ -73,28 +77,42 @@ Extent getListed(uint slot) {
     extent.key = sKeys[slot];
     extent.isOfUse = true;
     extent.depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
+    extent.bins = uvec2(sBins[0][slot], sBins[1][slot]);
     extent.low = ivec2(sLowX[slot], sLowY[slot]);
     extent.high = ivec2(sHighX[slot], sHighY[slot]);
     return extent;
 }
 
+/// \param perAlong LayerMotion::parallaxes
+void addBin(uvec2 surface, float perAlong, bool perspective, inout Extent extent) {
+    if (perAlong <= 0.0f || !extent.isOfUse) return;
+    float along = alongOf(uintBitsToFloat(surface.x), perspective);
+    uint bin = parallaxBin(perAlong * along);
+    extent.bins[bin >> 5u] |= 1u << (bin & 31u);
+}
+
 /// Lists what covers samples of a pixel that its own surface does not.
-void listOther(LayerMotion layer, ivec2 pixel) {
+void listOther(LayerMotion layer, ivec2 pixel, bool perspective) {
     uvec2 other = textureLod(uEdgeSurface, uvOfPixel(pixel), 0.0f).xy;
     Extent extent = beginExtent(layer, keyOfId(other.y));
     if (extent.deforms) return; // found by the pixels that are its own
     growExtent(other, pixel, extent);
+    addBin(other, parallaxOf(layer, extent.key), perspective, extent);
     listExtent(extent);
 }
 
 /// Adds a pixel to the extent if it is of the same entity; lists the extent and begins another if it
 /// is not.
-void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
+/// \param perAlong LayerMotion::parallaxes of the extent's entity
+void addPixel(
+    LayerMotion layer, ivec2 pixel, bool perspective, inout Extent extent, inout float perAlong
+) {
     uvec2 surface = textureLod(uSurface, uvOfPixel(pixel), 0.0f).xy;
     uint key = keyOf(surface);
     if (key != extent.key) {
         listExtent(extent);
         extent = beginExtent(layer, key);
+        perAlong = parallaxOf(layer, key);
         if (extent.deforms) {
             // Deforming entities are listed part by part (resolved_parts.comp).
             extent.isOfUse = false;
@@ -102,7 +120,8 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
         }
     }
     growExtent(surface, pixel, extent);
-    if (kHasEdges && otherSamplesOf(surface) != 0u) listOther(layer, pixel);
+    addBin(surface, perAlong, perspective, extent);
+    if (kHasEdges && otherSamplesOf(surface) != 0u) listOther(layer, pixel, perspective);
 }
 
 /// Where an entity of the tile is seen at the instants of a sample: those of all sets, which follow one
@@ -128,6 +147,7 @@ void main() {
         sKeys[slot] = kNoKey;
         sNearest[slot] = 0xFFFFFFFFu;
         sFarthest[slot] = 0u;
+        sBins[0][slot] = sBins[1][slot] = 0u;
         sLowX[slot] = sLowY[slot] = 0x7FFFFFFF;
         sHighX[slot] = sHighY[slot] = -0x7FFFFFFF;
     }
@@ -139,11 +159,14 @@ void main() {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
     uvec2 origin = gl_WorkGroupID.xy * kCandidateTilePx + gl_LocalInvocationID.xy;
+    bool perspective = motions.value.isPerspective != 0u;
     Extent extent = kNoExtent;
+    float perAlong = 0.0f;
     [[dont_unroll]] for (uint y = 0u; y < kCandidateTilePx; y += kThreadRows)
         [[dont_unroll]] for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
             uvec2 pixel = origin + uvec2(x, y);
-            if (all(lessThan(pixel, params.sizePx))) addPixel(layer, ivec2(pixel), extent);
+            if (all(lessThan(pixel, params.sizePx)))
+                addPixel(layer, ivec2(pixel), perspective, extent, perAlong);
         }
     listExtent(extent);
     barrier();
@@ -154,15 +177,15 @@ void main() {
         if (thread == 0u) noteUnlistedSource(ownTile, kLayer);
         return;
     }
-    bool perspective = motions.value.isPerspective != 0u;
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;
         if (sKeys[slot] == kNoKey) break;
         uint sample_ = pair - slot * params.sampleCount;
         Extent listed = getListed(slot);
         // Entities in the tile now must be candidates, even if they are there at no instant.
-        if (kLayer == kRasterLayer && sample_ == 0u) enter(ownTile, listed.key, listed.depths, 0u);
+        if (kLayer == kRasterLayer && sample_ == 0u)
+            enter(ownTile, listed.key, listed.depths, 0u, listed.bins);
         SeenBox box = findBox(layer, listed, sample_, perspective);
-        if (box.parts != 0u) enterBox(listed.key, box);
+        if (box.parts != 0u) enterBox(listed.key, box, listed.bins);
     }
 }

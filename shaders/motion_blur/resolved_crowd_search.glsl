@@ -7,9 +7,6 @@
 
 #include "motion_blur/resolved_crowds.glsl"
 
-/// Whether tiles may be crowded.
-layout(constant_id = 3) const bool kHasCrowds = false;
-
 /// Where something that a layer shows is at an instant.
 struct Displaced {
     bool isKnown;
@@ -62,7 +59,7 @@ void searchFrom(
         if (fetchSurface(index, ivec2(next)).key != surface.key) return;
         // Among many small entities, colours next to edges are interpolated as elsewhere.
         float depth = behindSky(surface.key, displaced.depth);
-        keepNearer(best, Seen(true, index, surface.key, next, depth, true), pixel.x);
+        keepNearer(best, Seen(true, index, surface.key, next, depth, true, kAnyRange), pixel.x);
         return;
     }
 }

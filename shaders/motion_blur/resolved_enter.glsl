@@ -28,7 +28,8 @@ void noteUnlistedSource(uint tile, uint layer) {
     noteCrowd(tile, kSourceIsListed << layer | (layer == kRasterLayer ? kTileIsListed : 0u));
 }
 
-void enter(uint tile, uint key, vec2 depths, uint bits) {
+/// \param bits of parts of the exposure, and of parallax bins
+void enter(uint tile, uint key, vec2 depths, uint bits, uvec2 bins) {
     [[dont_unroll]] for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
         uint held = uTiles[tile].candidates[slot].key;
         if (held == kNoKey) held = atomicCompSwap(uTiles[tile].candidates[slot].key, kNoKey, key);
@@ -41,17 +42,21 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
         if (uTiles[tile].candidates[slot].farthestInverted > farthestInverted)
             atomicMin(uTiles[tile].candidates[slot].farthestInverted, farthestInverted);
         if ((uTiles[tile].parts[slot] & bits) != 0u) atomicAnd(uTiles[tile].parts[slot], ~bits);
+        if (bins == uvec2(0u)) return;
+        for (uint word = 0u; word < 2u; ++word)
+            if ((uTiles[tile].ranges[2u * slot + word] & bins[word]) != 0u)
+                atomicAnd(uTiles[tile].ranges[2u * slot + word], ~bins[word]);
         return;
     }
     noteCrowd(tile, kTileIsListed);
 }
 
-void enterBox(uint key, SeenBox box) {
+void enterBox(uint key, SeenBox box, uvec2 bins) {
     TileRange range = findTiles(box);
     uint across = countTiles(params.sizePx).x;
     for (uint y = range.from.y; y <= range.to.y; ++y)
         for (uint x = range.from.x; x <= range.to.x; ++x)
-            enter(y * across + x, key, box.depths, box.parts);
+            enter(y * across + x, key, box.depths, box.parts, bins);
 }
 
 #endif

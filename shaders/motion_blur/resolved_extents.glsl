@@ -17,6 +17,7 @@ struct Extent {
     bool isOfUse; // it moves, and it is known how
     bool deforms;
     vec2 depths;
+    uvec2 bins; // a bit for each that a pixel lies in (parallax_bins.glsl)
     ivec2 low;
     ivec2 high;
     vec2 motionLow; // of deforming entities: bounds of their motion vectors
@@ -24,8 +25,8 @@ struct Extent {
 };
 
 const Extent kNoExtent = Extent(
-    kNoKey, false, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), vec2(3.0e38f),
-    vec2(-3.0e38f)
+    kNoKey, false, false, vec2(3.0e38f, 0.0f), uvec2(0u), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF),
+    vec2(3.0e38f), vec2(-3.0e38f)
 );
 
 Extent beginExtent(LayerMotion layer, uint key) {

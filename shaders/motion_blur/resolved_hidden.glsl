@@ -38,10 +38,10 @@ vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
     return placeOn(ray, alongOf(depth, pixel.perspective), pixel.perspective);
 }
 
-bool showsHidden(PixelSearch pixel, uint key, Probe hiding, vec2 at) {
+bool showsHidden(PixelSearch pixel, uint key, uint range, Probe hiding, vec2 at) {
     if (!isInside(at)) return false;
     Probe surface = fetchSurface(kRasterLayer, ivec2(at));
-    if (key != kStaticKey) return surface.key == key;
+    if (key != kStaticKey) return isOf(surface, key, range);
     return isStillMover(pixel.raster, findMover(pixel.raster, surface.key)) &&
            behindSky(surface.key, surface.depth) > hiding.depth;
 }
@@ -51,7 +51,7 @@ bool showsHidden(PixelSearch pixel, uint key, Probe hiding, vec2 at) {
 /// two such guesses errs less than either.
 /// \param key of the hidden surface, or kStaticKey
 void walkTo(
-    PixelSearch pixel, uint key, vec2 from, vec2 end, Probe hiding, inout Substitute best
+    PixelSearch pixel, uint key, uint range, vec2 from, vec2 end, Probe hiding, inout Substitute best
 ) {
     float way = distance(from, end);
     float steps = min(ceil(way), float(kWalkSteps));
@@ -59,9 +59,9 @@ void walkTo(
         float share = step_ / steps;
         vec2 at = mix(from, end, share);
         if (way * share >= best.distancePx || !isInside(at)) return;
-        if (!showsHidden(pixel, key, hiding, at)) continue;
+        if (!showsHidden(pixel, key, range, hiding, at)) continue;
         vec3 color = fetchColor(kRasterLayer, ivec2(at));
-        if (showsHidden(pixel, key, hiding, end))
+        if (showsHidden(pixel, key, range, hiding, end))
             color = 0.5f * (color + fetchColor(kRasterLayer, ivec2(end)));
         best = Substitute(way * share, color);
         return;
@@ -71,10 +71,10 @@ void walkTo(
 /// Walks to the end of the occluder. With a lens, the surface may be visible at the pixel and
 /// hidden only from the instant's place of the lens: nearer surfaces count as occluders.
 void walkToSeen(
-    PixelSearch pixel, uint instant, uint key, vec2 from, Probe hiding, inout Substitute best
+    PixelSearch pixel, uint instant, uint key, uint range, vec2 from, Probe hiding, inout Substitute best
 ) {
-    walkTo(pixel, key, from, placeOfHiding(pixel, instant, from, hiding), hiding, best);
-    if (kHasLens) walkTo(pixel, key, from, pixel.x, hiding, best);
+    walkTo(pixel, key, range, from, placeOfHiding(pixel, instant, from, hiding), hiding, best);
+    if (kHasLens) walkTo(pixel, key, range, from, pixel.x, hiding, best);
 }
 
 /// Depth in the raster of the farthest that the tile may see of an entity.
@@ -87,7 +87,9 @@ float farthestInRaster(Candidate candidate, PixelRay ray, bool perspective) {
 
 /// Considers an entity that the search did not find: it may be hidden where the pixel would see it.
 /// If the raster's surface there is farther, the entity is not there at all.
-void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Substitute best) {
+void addHidden(
+    PixelSearch pixel, uint instant, Candidate candidate, uint range, inout Substitute best
+) {
     InstantMotion motion = motionAt(method, kHasLens, pixel.raster, candidate.mover, instant);
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
     PixelRay ray = findRay(motion.rasterFromInstant, pixel.x, pixel.perspective);
@@ -95,10 +97,10 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
     at = withinBorder(kRasterLayer, at);
     if (!isInside(at)) return;
     Probe surface = fetchSurface(kRasterLayer, ivec2(at));
-    bool isHidden = surface.key != candidate.key &&
+    bool isHidden = !isOf(surface, candidate.key, range) &&
                     behindSky(surface.key, surface.depth) <
                         farthestInRaster(candidate, ray, pixel.perspective);
-    if (isHidden) walkToSeen(pixel, instant, candidate.key, at, surface, best);
+    if (isHidden) walkToSeen(pixel, instant, candidate.key, range, at, surface, best);
 }
 
 /// Finds a substitute color for a sample that no layer holds: of the surfaces hidden there in this
@@ -113,12 +115,14 @@ Substitute findSubstitute(PixelSearch pixel, uint instant) {
     Substitute best = Substitute(kFarthest, vec3(0.0f));
     if (pixel.raster.isStatic != 0u) {
         Probe surface = fetchSurface(kRasterLayer, ivec2(pixel.x));
-        walkToSeen(pixel, instant, kStaticKey, pixel.x, surface, best);
+        walkToSeen(pixel, instant, kStaticKey, kAnyRange, pixel.x, surface, best);
     }
     uint slots = getPart(kRasterLayer, pixel.tile, partOf(instant, pixel.partsPerInstant));
     for (; slots != 0u; slots &= slots - 1u) {
-        Candidate candidate = getCandidate(kRasterLayer, pixel.tile, uint(findLSB(slots)));
-        if (!isDeformed(candidate.mover)) addHidden(pixel, instant, candidate, best);
+        uint slot = uint(findLSB(slots));
+        Candidate candidate = getCandidate(kRasterLayer, pixel.tile, slot);
+        uint range = getRange(pixel, kRasterLayer, slot);
+        if (!isDeformed(candidate.mover)) addHidden(pixel, instant, candidate, range, best);
     }
     return best;
 }

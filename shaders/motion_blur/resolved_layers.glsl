@@ -12,6 +12,7 @@
 struct ReadTile {
     uvec4 candidates[kCandidatesPerTile];
     uint parts[kExposureParts];
+    uint ranges[kRangeWords];
 };
 
 layout(binding = 0) uniform sampler2D uColor;
@@ -42,6 +43,11 @@ layout(binding = 22) uniform usampler2D uEdgeSurface; // of this frame's raster;
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;
 
+/// Whether tiles may have candidates that are told apart by depth.
+layout(constant_id = 3) const bool kIsGeneral = false;
+/// Whether they may be crowded; with kIsGeneral.
+layout(constant_id = 7) const bool kHasCrowds = false;
+
 /// Whether something deforms in any of the layers.
 layout(constant_id = 4) const bool kHasParts = true;
 
@@ -63,6 +69,7 @@ struct Seen {
     vec2 at;      // in the layer's picture
     float depth;  // at the instant
     bool isInner; // all that the layer shows around the place is of the same entity or plane
+    uint range;   // of depths in the layer that the surface has (TileCandidates::ranges)
 };
 
 /// The surface of a layer's pixel.
@@ -71,6 +78,10 @@ struct Probe {
     float depth;
     uint innerCorners; // a bit for each corner of the pixel, see isInner()
 };
+
+bool isOf(Probe surface, uint key, uint range) {
+    return surface.key == key && isWithin(surface.depth, range);
+}
 
 vec2 uvOf(vec2 at) { return at * (1.0f / vec2(params.sizePx)); }
 
@@ -163,21 +174,25 @@ vec4 gatherDepths(uint layer, Footprint footprint) {
     );
 }
 
-/// \return whether each of the pixels is of the entity
-bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
+/// \return whether each of the pixels is of the entity and within the range
+bvec4 gatherMatches(uint layer, uint key, uint range, Footprint footprint) {
     vec2 uv = gatherPlace(footprint);
     uvec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
                                        : textureGather(uLastSurface, uv, 1);
     if (isSecond(layer)) keys = textureGather(uSecondSurface, uv, 1);
-    return equal(keys & kKeyBits, uvec4(key));
+    bvec4 isSame = equal(keys & kKeyBits, uvec4(key));
+    if (range == kAnyRange) return isSame;
+    uvec4 depths = floatBitsToUint(gatherDepths(layer, footprint)) >> 16u;
+    bvec4 isInRange = lessThanEqual(depths - (range & 0xFFFFu), uvec4(range >> 16u));
+    return bvec4(uvec4(isSame) & uvec4(isInRange));
 }
 
 /// Bilinear among the pixels of the entity. Across a plane in the picture, depth is linear for an
 /// orthographic camera, and inverse depth for a perspective one.
 /// \param nearest depth at the place's pixel, which may be of another surface
-float interpolateDepth(uint layer, uint key, vec2 at, float nearest, bool perspective) {
+float interpolateDepth(uint layer, uint key, uint range, vec2 at, float nearest, bool perspective) {
     Footprint footprint = footprintOf(at);
-    vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, footprint));
+    vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, range, footprint));
     vec4 depths = gatherDepths(layer, footprint);
     float sum = dot(weights, vec4(1.0f));
     if (kHasEdges && sum == 0.0f) return nearest;
@@ -210,7 +225,7 @@ vec3 interpolateColor(Seen seen) {
     }
     Footprint footprint = footprintOf(seen.at);
     vec4 weights =
-        mix(vec4(0.0f), footprint.weights, gatherMatches(seen.layer, seen.key, footprint));
+        mix(vec4(0.0f), footprint.weights, gatherMatches(seen.layer, seen.key, seen.range, footprint));
     vec2 uv = gatherPlace(footprint);
     vec3 sum = vec3(
         dot(weights, gatherChannel(seen.layer, uv, 0)),
@@ -236,6 +251,12 @@ Candidate getCandidate(uint layer, uint tile, uint slot) {
                                      : uRasterTiles[tile].candidates[slot];
     if (isSecond(layer)) read = uSecondTiles[tile].candidates[slot];
     return Candidate(read.x, read.y, read.z, read.w);
+}
+
+/// TileCandidates::ranges. \param index of a candidate, or kRangesMask
+uint readRange(uint layer, uint tile, uint index) {
+    if (isSecond(layer)) return uSecondTiles[tile].ranges[index];
+    return layer == kLastLayer ? uLastTiles[tile].ranges[index] : uRasterTiles[tile].ranges[index];
 }
 
 TilePart getTilePart(uint layer, uint id) {

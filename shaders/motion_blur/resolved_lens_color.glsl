@@ -23,7 +23,7 @@ Seen placeForColor(Seen seen, uint instant) {
     vec2 at = seen.at + shiftForInterpolation(InstantMotionsRef(method.motions), instant, along);
     if (!isInside(at)) return seen;
     Probe surface = fetchSurfaceAt(seen.layer, at);
-    if (surface.key != seen.key) return seen;
+    if (!isOf(surface, seen.key, seen.range)) return seen;
     seen.at = at;
     seen.isInner = isInner(surface.innerCorners, at - floor(at));
     return seen;

@@ -34,11 +34,11 @@ layout(binding = 4, scalar) buffer BlockLists {
 layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
 layout(binding = 6, scalar) readonly buffer SecondCandidates { TileCandidates uSecond[]; };
 layout(binding = 7, scalar) readonly buffer Parts { TilePart uParts[]; };
-layout(binding = 8, scalar) buffer CrowdedBlocks {
+layout(binding = 8, scalar) buffer GeneralBlocks {
     BlockHeader header;
     uint entries[];
-} uCrowded;
-layout(binding = 9, scalar) buffer CrowdedArguments { DispatchArguments uCrowdedArguments; };
+} uGeneral;
+layout(binding = 9, scalar) buffer GeneralArguments { DispatchArguments uGeneralArguments; };
 layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 #include "motion_blur/resolved_crowds.glsl"
@@ -616,18 +616,29 @@ void listBlock(uvec2 block, uvec2 blocks, uint list) {
     if (index % kListRow == 0u) atomicAdd(uArguments[list].groupsY, 1u);
 }
 
-void listCrowded(uvec2 block) {
-    uint index = atomicAdd(uCrowded.header.uniformCount, 1u); // kCandidateList is the first of its own
-    uCrowded.entries[index] = block.x | block.y << 16;
-    atomicMax(uCrowdedArguments.groupsX, min(index + 1u, kListRow));
-    if (index % kListRow == 0u) atomicAdd(uCrowdedArguments.groupsY, 1u);
+/// Blocks that need more than the usual search.
+void listGeneral(uvec2 block) {
+    uint index = atomicAdd(uGeneral.header.uniformCount, 1u); // kCandidateList is the first of its own
+    uGeneral.entries[index] = block.x | block.y << 16;
+    atomicMax(uGeneralArguments.groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uGeneralArguments.groupsY, 1u);
+}
+
+/// Whether a tile that is not crowded has candidates that are told apart by depth. Where pixels are listed
+/// all tiles count as such.
+bool isGeneral(uint tile) {
+    if (!has(method, kHasGeneralTiles)) return false;
+    uint ranges = uRaster[tile].ranges[kRangesMask];
+    if (has(method, kHasLastLayer)) ranges |= uLast[tile].ranges[kRangesMask];
+    if (has(method, kHasSecondLayer)) ranges |= uSecond[tile].ranges[kRangesMask];
+    return ranges != 0u || !kSortsUniform;
 }
 
 /// A block of a crowded tile, of which nothing is known but how far things go.
 void addCrowded(uvec2 block, uint tile, uint firstSample) {
     if (block % (kCandidateTilePx / kGroupSize) == uvec2(0u))
         atomicAdd(uCounters.crowdedTiles, 1u);
-    listCrowded(block);
+    listGeneral(block);
     if (params.uniformMotionPx == 0.0f) return;
     Found found;
     chooseInstants(uintBitsToFloat(~CrowdTable(method.crowds).tiles[tile].wayInverted), found);
@@ -675,5 +686,9 @@ void main() {
         }
         isUniform = kSortsUniform && found.isUniform;
     }
-    if (isThere && lane == 0u) listBlock(block, blocks, isUniform ? kUniformList : kMixedList);
+    if (!isThere || lane != 0u) return;
+    if (!isUniform && isGeneral(tile))
+        listGeneral(block);
+    else
+        listBlock(block, blocks, isUniform ? kUniformList : kMixedList);
 }

@@ -47,7 +47,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurfaceAt(search.layer, at);
         if (surface.key != search.key) {
-            noteMiss(search.layer, search.key, at, doubt);
+            noteMiss(search.layer, search.key, kAnyRange, at, doubt);
             return;
         }
         vec2 displacement;
@@ -63,11 +63,11 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
         if ((!isThere && way > kTolerancePx) || !isInside(at)) return;
         if (kHasEdges || !isThere) surface = fetchSurfaceAt(search.layer, at);
         if (surface.key != search.key) {
-            noteMiss(search.layer, search.key, at, doubt);
+            noteMiss(search.layer, search.key, kAnyRange, at, doubt);
             return;
         }
         bool inner = isInner(surface.innerCorners, at - floor(at));
-        Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner);
+        Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner, kAnyRange);
         keepNearer(found, seen, search.x);
         return;
     }

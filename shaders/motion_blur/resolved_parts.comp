@@ -362,7 +362,7 @@ void enterPart(uint index, uint id, uint sample_) {
         widenByLens(instant, sPartDepths[index], low, high);
         addBox(instant, low, high, sPartDepths[index], box);
     }
-    if (box.parts != 0u) enterBox(kPartBit | id, box);
+    if (box.parts != 0u) enterBox(kPartBit | id, box, uvec2(0u));
 }
 
 void main() {
@@ -380,7 +380,8 @@ void main() {
     for (uint i = gl_LocalInvocationIndex; i < count; i += kThreads) {
         uParts[first + i] = sParts[i];
         // Parts in the tile now must be candidates, even if they are there at no instant.
-        if (kLayer == kRasterLayer) enter(tileIndex, kPartBit | (first + i), sPartDepths[i], 0u);
+        if (kLayer == kRasterLayer)
+            enter(tileIndex, kPartBit | (first + i), sPartDepths[i], 0u, uvec2(0u));
     }
     for (uint i = gl_LocalInvocationIndex; i < count * params.sampleCount; i += kThreads) {
         uint index = i / params.sampleCount;

@@ -65,10 +65,10 @@ void addEdge(vec3 color, inout Doubt doubt) {
 }
 
 /// The entity is not where the search ended; records its place if that is adjacent.
-void noteMiss(uint layer, uint key, vec2 at, inout Doubt doubt) {
+void noteMiss(uint layer, uint key, uint range, vec2 at, inout Doubt doubt) {
     if (!kFindsEdges) return;
     Footprint footprint = footprintOf(at);
-    bvec4 matches = gatherMatches(layer, key, footprint);
+    bvec4 matches = gatherMatches(layer, key, range, footprint);
     for (uint i = 0u; i < 4u; ++i)
         if (matches[i]) addEdge(fetchColor(layer, texelOf(footprint, i)), doubt);
 }
@@ -79,18 +79,21 @@ void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     Footprint footprint = footprintOf(seen.at);
     uint key = seen.key;
     if (key == kNoKey) key = fetchSurface(seen.layer, ivec2(seen.at)).key;
-    bvec4 matches = gatherMatches(seen.layer, key, footprint);
+    bvec4 matches = gatherMatches(seen.layer, key, seen.range, footprint);
     for (uint i = 0u; i < 4u; ++i) {
         vec3 neighbour = fetchColor(seen.layer, texelOf(footprint, i));
         addEdge(matches[i] ? mix(color, neighbour, kInnerShare) : neighbour, doubt);
     }
 }
 
-/// Where on a pixel's ray an entity was found last: the next instant's first guess.
+/// Where on a pixel's ray a candidate was found last: the next instant's first guess.
 struct Guess {
-    uint key;
+    uint id; // idOf()
     float along;
 };
+
+/// Of a candidate among those of a tile; of an entity that is one candidate, its key.
+uint idOf(uint key, uint range, uint slot) { return range == kAnyRange ? key : key | (slot + 1u) << kKeyBitCount; }
 
 struct Guesses {
     Guess raster;
@@ -98,28 +101,27 @@ struct Guesses {
     Guess last;
 };
 
-/// Searches the pixel's sample on an entity, from one place on the ray.
-/// \param guess where on the ray to begin; where it was found
+/// Searches the pixel's sample on a candidate, from one place on the ray.
+/// \param begin where on the ray; where it was found
 /// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
 /// depth matters
 /// \return whether it was found
 bool searchRigid(
-    uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, inout Seen found, inout Doubt doubt
+    uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
+    inout float begin, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    uint key = guess.key;
-    vec2 at = withinBorder(layer, placeOn(ray, guess.along, perspective));
+    vec2 at = withinBorder(layer, placeOn(ray, begin, perspective));
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurfaceAt(layer, at);
-        if (surface.key != key) {
-            noteMiss(layer, key, at, doubt);
+        if (!isOf(surface, key, range)) {
+            noteMiss(layer, key, range, at, doubt);
             return false;
         }
         float layerDepth =
             spreadPx > kInterpolatedSpreadPx
-                ? interpolateDepth(layer, key, at, surface.depth, perspective)
+                ? interpolateDepth(layer, key, range, at, surface.depth, perspective)
                 : surface.depth;
         float depth =
             dot(instantDepthRow, pictureSpace(at, depthOfKey(key, layerDepth), perspective));
@@ -131,13 +133,14 @@ bool searchRigid(
             at = next;
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
             if (way > kTolerancePx || !isInside(at)) return false;
-            if ((kHasEdges || ivec2(at) != texel) && fetchSurfaceAt(layer, at).key != key) {
-                noteMiss(layer, key, at, doubt);
+            if ((kHasEdges || ivec2(at) != texel) &&
+                !isOf(fetchSurfaceAt(layer, at), key, range)) {
+                noteMiss(layer, key, range, at, doubt);
                 return false;
             }
         }
-        guess.along = along;
-        found = Seen(true, layer, key, at, behindSky(key, depth), false);
+        begin = along;
+        found = Seen(true, layer, key, at, behindSky(key, depth), false, range);
         return true;
     }
     return false;
@@ -150,18 +153,18 @@ const uint kUnclear = 2u; // it is there, but the sample needs a full search
 /// Accepts the first guess where it is right and no other entity is near, as for most samples.
 /// \return kFound, kMissed or kUnclear
 uint searchInner(
-    uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, inout Seen found, inout Doubt doubt
+    uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
+    inout float guess, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 at = withinBorder(layer, placeOn(ray, guess.along, perspective));
+    vec2 at = withinBorder(layer, placeOn(ray, guess, perspective));
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurfaceAt(layer, at);
-    if (surface.key != guess.key) {
-        noteMiss(layer, guess.key, at, doubt);
+    if (!isOf(surface, key, range)) {
+        noteMiss(layer, key, range, at, doubt);
         return kMissed;
     }
-    float layerDepth = depthOfKey(guess.key, surface.depth);
+    float layerDepth = depthOfKey(key, surface.depth);
     float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
     float along = alongOf(depth, perspective);
     vec2 place = at;
@@ -169,8 +172,8 @@ uint searchInner(
     if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
     if (perspective && depth < kMinDepth) return kUnclear;
-    guess.along = along;
-    found = Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true);
+    guess = along;
+    found = Seen(true, layer, key, place, behindSky(key, depth), true, range);
     return kFound;
 }
 
@@ -185,9 +188,10 @@ float alongAt(Candidate candidate, float share, bool perspective) {
 }
 
 /// Searches the place in the layer of the pixel's sample on an entity.
-/// \param guess where it was found at the instant before, if it was this entity; where it is now
+/// \param id idOf()
+/// \param guess where it was found at the instant before, if it was this candidate; where it is now
 void searchDepths(
-    uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x,
+    uint layer, Candidate candidate, uint range, uint id, InstantMotion motion, bool perspective, vec2 x,
     inout Guess guess, inout Seen found, inout Doubt doubt
 ) {
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
@@ -197,13 +201,13 @@ void searchDepths(
         placeOn(ray, alongAt(candidate, 1.0f, perspective), perspective)
     );
     vec4 depthRow = motion.instantFromRaster[2];
-    bool hasGuess = guess.key == candidate.key;
-    Guess tried =
-        Guess(candidate.key, hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective));
-    uint first =
-        searchInner(layer, depthRow, ray, perspective, tried, way, found, doubt);
+    bool hasGuess = guess.id == id;
+    float tried = hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective);
+    uint first = searchInner(
+        layer, candidate.key, range, depthRow, ray, perspective, tried, way, found, doubt
+    );
     if (first == kFound) {
-        guess = tried;
+        guess = Guess(id, tried);
         return;
     }
     bool triesGuess = first == kUnclear && (hasGuess || way < kSeedlessWayPx);
@@ -214,9 +218,11 @@ void searchDepths(
     // first place found is, as a rule, the one that hides the others.
     [[dont_unroll]] for (uint i = triesGuess ? 0u : 1u; i <= seeds; ++i) {
         if (i > 0u)
-            tried.along = alongAt(candidate, float(i - 1u) / float(seeds - 1u), perspective);
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, found, doubt)) {
-            guess = tried;
+            tried = alongAt(candidate, float(i - 1u) / float(seeds - 1u), perspective);
+        if (searchRigid(
+                layer, candidate.key, range, depthRow, ray, perspective, tried, way, found, doubt
+            )) {
+            guess = Guess(id, tried);
             return;
         }
     }
@@ -241,13 +247,28 @@ struct PixelSearch {
     LayerMotion raster;
     LayerMotion second;
     LayerMotion last;
+    // A bit for each candidate of the tile that has a range of depths, by layer.
+    uint rasterRanges;
+    uint secondRanges;
+    uint lastRanges;
     Seen still; // the static surface there, at all instants
     Seen secondStill;
     Seen lastStill;
 };
 
+/// Depths in the layer that belong to the tile's candidate. Few have a range: the load is spared.
+uint getRange(PixelSearch pixel, uint layer, uint slot) {
+    if (!kIsGeneral) return kAnyRange;
+    uint ranges = layer == kLastLayer ? pixel.lastRanges : pixel.rasterRanges;
+    if (isSecond(layer)) ranges = pixel.secondRanges;
+    return (ranges >> slot & 1u) != 0u ? readRange(layer, pixel.tile, slot) : kAnyRange;
+}
+
 /// How much farther, as a share, a surface must be to refute a nearer one.
 const float kRefutingShare = 1.0e-3f;
+
+/// How far from the pixel a surface of the same entity is seen, at least, that is not the one sought.
+const float kOtherSurfacePx = 1.5f;
 
 /// Distance of a place from its pixel's sample position.
 float fromCentre(vec2 at) { return distance(fract(at), vec2(0.5f)); }
@@ -273,8 +294,14 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     if (!isInside(at)) return false;
     if (fromCentre(at) > fromCentre(found.at)) return false;
     Probe surface = fetchSurfaceAt(kRasterLayer, at);
-    return surface.key != row &&
-           behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
+    bool isFarther =
+        behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
+    if (!kIsGeneral || !isFarther || surface.key != row) return isFarther && surface.key != row;
+    // Another surface of the entity is one that is seen elsewhere.
+    vec3 seen = transformRows(
+        motion.instantFromRaster, pictureSpace(at, surface.depth, pixel.perspective)
+    );
+    return distance(projectPicture(seen, pixel.perspective), pixel.x) > kOtherSurfacePx;
 }
 
 #include "motion_blur/resolved_crowd_search.glsl"
@@ -287,13 +314,15 @@ void searchLayer(
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     slots &= getPart(index, pixel.tile, partOf(instant, pixel.partsPerInstant));
     while (slots != 0u) {
-        Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
+        uint slot = uint(findLSB(slots));
+        Candidate candidate = getCandidate(index, pixel.tile, slot);
+        uint range = getRange(pixel, index, slot);
         slots &= slots - 1u;
         // The remaining candidates lie behind the sample. They are still needed for edges.
         if (!kFindsEdges && best.isFound &&
             (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
             break;
-        Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
+        Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false, kAnyRange);
         if (isDeformed(candidate.mover))
             searchPart(
                 index, candidate, timeOf(motions, instant),
@@ -301,8 +330,9 @@ void searchLayer(
             );
         else
             searchDepths(
-                index, candidate, motionAt(method, kHasLens, layer, candidate.mover, instant),
-                pixel.perspective, pixel.x, guess, found, doubt
+                index, candidate, range, idOf(candidate.key, range, slot),
+                motionAt(method, kHasLens, layer, candidate.mover, instant), pixel.perspective,
+                pixel.x, guess, found, doubt
             );
         if (!found.isFound) continue;
         if (index != kRasterLayer && isRefuted(pixel, instant, found)) continue;
@@ -315,7 +345,7 @@ Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
     Probe surface = fetchSurface(index, pixel);
     return Seen(
         isStillMover(layer, findMover(layer, surface.key)), index, surface.key, vec2(pixel) + 0.5f,
-        surface.depth, false
+        surface.depth, false, kAnyRange
     );
 }
 
@@ -343,11 +373,20 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.raster = getLayer(motions, kRasterLayer);
     search.second = getLayer(motions, kSecondLayer);
     search.last = getLayer(motions, kLastLayer);
+    search.rasterRanges = 0u;
+    search.secondRanges = 0u;
+    search.lastRanges = 0u;
+    if (kIsGeneral) {
+        search.rasterRanges = readRange(kRasterLayer, search.tile, kRangesMask);
+        if (kHasSecond) search.secondRanges = readRange(kSecondLayer, search.tile, kRangesMask);
+        if (has(method, kHasLastLayer))
+            search.lastRanges = readRange(kLastLayer, search.tile, kRangesMask);
+    }
     search.still = findStill(kRasterLayer, search.raster, pixel);
-    search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false);
+    search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false, kAnyRange);
     if (kHasSecond && !search.still.isFound)
         search.secondStill = findStill(kSecondLayer, search.second, pixel);
-    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false);
+    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false, kAnyRange);
     if (has(method, kHasLastLayer) && !search.still.isFound)
         search.lastStill = findStill(kLastLayer, search.last, pixel);
     return search;
@@ -417,7 +456,7 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
                     InstantMotionsRef(method.motions), blockSample, uBlockSamples[index + 1u],
                     sample_, pixel.set, pixel.inBlock
                 ).step_;
-            return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true);
+            return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true, kAnyRange);
         }
         slots = blockSample.perY;
     }

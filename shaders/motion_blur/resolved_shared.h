@@ -30,12 +30,26 @@ struct Candidate {
     uint mover;            // in the table of movers, once they are sorted
 };
 
+SHUTTER_CONST uint kRangeWords = 64u;
+
 struct TileCandidates {
     Candidate candidates[kCandidatesPerTile]; // nearest first once they are sorted
     // While they are listed: for each candidate a bit for each part of the exposure, 0 if it is in
     // the tile then. Once they are sorted: for each part a bit for each candidate, 1 if it is.
     uint parts[kExposureParts];
+    // While they are listed: two words for each candidate, a bit for each parallax bin of its
+    // surfaces, 0 if there is one (parallax_bins.glsl). Once they are sorted: a word for each
+    // candidate, the range of depths in its raster that belongs to it; an entity that shows several
+    // surfaces, one behind the other, is several candidates. Then, at kRangesMask, a bit for each
+    // candidate that has less than all depths.
+    uint ranges[kRangeWords];
 };
+
+SHUTTER_CONST uint kRangesMask = kCandidatesPerTile;
+
+/// Rows of a group that sorts them, a tile for each thread: so many fit into 16 KiB, the shared
+/// memory that every device has.
+SHUTTER_CONST uint kSortRows = 3u;
 
 /// Places that the search in a crowded tile begins at, most: one for each way of moving.
 SHUTTER_CONST uint kCrowdSeeds = 30u;
@@ -120,6 +134,9 @@ SHUTTER_CONST uint kHasWays = 4u;
 SHUTTER_CONST uint kHasLensPlaces = 8u;
 /// Pixels that have sets of such places are filtered (lens_filter.comp).
 SHUTTER_CONST uint kFiltersLens = 16u;
+/// Tiles may be crowded or have candidates with ranges of depths: their blocks are in a list of
+/// their own.
+SHUTTER_CONST uint kHasGeneralTiles = 32u;
 
 struct ResolvedParams {
     uvec2 motions; // address of InstantMotions
@@ -151,8 +168,9 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::Candidate) == 16);
-static_assert(sizeof(shutter::shader::TileCandidates) == 640);
+static_assert(sizeof(shutter::shader::TileCandidates) == 896);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
+static_assert(shutter::shader::kRangeWords == 2 * shutter::shader::kCandidatesPerTile);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
 static_assert(sizeof(shutter::shader::BlockSample) == 16);
 static_assert(sizeof(shutter::shader::TileCrowd) == 128);

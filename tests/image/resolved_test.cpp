@@ -127,6 +127,85 @@ TEST_F(Resolved, BarsThatHideABackgroundAreNoWiderAndItHasItsOwnColour) {
     }
 }
 
+/// Rails before a wall, as entities of their own or merged into one mesh.
+struct Rails {
+    bool areOneMesh = false;
+    test::Placement level{}; ///< of all of it
+    test::Placement camera{};
+    double railsAt = -3.0;
+    double wallAt = -12.0;
+
+    [[nodiscard]] test::SceneBuilder make() const {
+        test::SceneBuilder scene = test::makeView(0.87);
+        scene.moveCamera(camera);
+        std::vector<scene::Primitive> rails;
+        const scene::AssetIndex waves = scene.addWaves();
+        const scene::AssetIndex colors[] = {
+            scene.addColor({0.0f, 1.0f, 0.0f}), scene.addColor({0.9f, 0.2f, 0.1f})};
+        for (int i = -12; i <= 12; ++i)
+            rails.push_back(test::transformed(
+                test::makeQuad(0.12, 6.0, colors[i & 1]),
+                glm::translate(math::dmat4(1.0), dvec3(i * 0.5, 0, railsAt))
+            ));
+        scene::Primitive wall = test::transformed(
+            test::makeQuad(40, 20, waves), glm::translate(math::dmat4(1.0), dvec3(0, 0, wallAt))
+        );
+        if (areOneMesh) {
+            rails.push_back(std::move(wall));
+        } else {
+            scene.add(std::move(wall), level);
+        }
+        scene.add(scene.addMesh(std::move(rails)), level);
+        return scene;
+    }
+
+    /// dB of `method` against 64 instants, apart and as one mesh.
+    [[nodiscard]] static std::pair<double, double>
+    psnr(gpu::Device& device, Rails rails, const test::Shot& shot) {
+        rails.areOneMesh = false;
+        const double apart = test::Comparison(device, rails.make(), shot, 64).psnr(shot);
+        rails.areOneMesh = true;
+        return {apart, test::Comparison(device, rails.make(), shot, 64).psnr(shot)};
+    }
+};
+
+TEST_F(Resolved, HowALevelIsCutIntoMeshesDoesNotDecideHowItBlurs) {
+    test::Shot shot = fenceShotOf("resolved");
+    shot.exposureSeconds = 0.02;
+    const Rails slides{.camera = {.velocity = {6, 0, 0}}};
+    const Rails rolls{.camera = {.velocity = {6, 0, 0}, .angularVelocity = {0, 0, 2}}};
+    const Rails approaches{.camera = {.position = {0.2, 0, 0}, .velocity = {0, 0, -6}}};
+    const Rails turns{
+        .level = {.position = {0, 0, -6}, .angularVelocity = {0, 2, 0}},
+        .railsAt = 1.5,
+        .wallAt = -1.5};
+    for (const Rails& rails : {slides, rolls, approaches, turns}) {
+        for (const bool history : {true, false}) {
+            shot.settings.history = history;
+            const auto [apart, oneMesh] = Rails::psnr(device(), rails, shot);
+            EXPECT_GT(oneMesh, apart - 0.6) << "history " << history;
+        }
+        shot.settings.history = true;
+    }
+    shot.settings.secondRaster = true;
+    const auto [apart, oneMesh] = Rails::psnr(device(), slides, shot);
+    EXPECT_GT(oneMesh, apart - 0.6);
+}
+
+TEST_F(Resolved, AWallBehindRailsOfItsOwnMeshIsAsFarOutOfFocusAsOneBehindOthers) {
+    test::Shot shot = fenceShotOf("resolved");
+    for (const double focus : {3.0, 12.0}) {
+        const auto psnr = [&](bool isOneMesh) {
+            test::SceneBuilder scene =
+                Rails{.areOneMesh = isOneMesh, .camera = {.velocity = {0.02, 0, 0}}}.make();
+            const scene::CameraLens lens{.fStop = 0.25, .focusDistance = focus};
+            scene.world.registry.add(scene.camera, lens);
+            return test::Comparison(device(), scene, shot, 256).psnr(shot);
+        };
+        EXPECT_GT(psnr(true), std::min(psnr(false), 50.0) - 0.6) << "focus " << focus;
+    }
+}
+
 TEST_F(Resolved, SurfacesThatCrossTheCamerasPlaneAreNearTheTruth) {
     test::SceneBuilder scene = test::makeView(1.4);
     scene.moveCamera({.velocity = {4.0, 0.0, -60.0}});

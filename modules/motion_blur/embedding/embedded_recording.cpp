@@ -60,7 +60,11 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     const HostRaster* last = motion.followsLast && view.last ? &*view.last : nullptr;
     HostInstants made = computeHostInstants(motion, describeFrame(inputs, frame.settings), last);
     InstantMotions motions;
-    motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
+    const WrittenLayers written = writeInstantLayers(
+        *mDevice, made.layers, {inputs.width, inputs.height}, frame.slot.instants
+    );
+    motions.table = written.table;
+    motions.mayHide = frame.hasAll || written.mayHide;
     motions.hasLens = seesThroughLens(inputs, frame.settings);
     motions.instantCount = countInstants(frame.settings, motions.hasLens);
     motions.hasLast = made.layers.last.has_value();

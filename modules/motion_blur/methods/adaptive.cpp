@@ -133,7 +133,7 @@ void AdaptivePasses::addTrace(
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline = mTrace.get(data.search, data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mTrace.get(data.search, data.search.isGeneral);
             context.frame.bind(pipeline, bindings, &own, sizeof(own), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }

@@ -165,11 +165,11 @@ BlockSampleOutputs BlockSamples::addFind(
                 lists.blocks = builder.write(lists.blocks, Access::StorageWrite);
                 lists.arguments = builder.write(lists.arguments, Access::StorageWrite);
                 data.sorted.counters = tiles.counters;
-                if (!tiles.crowds.isValid())
+                if (!tiles.isGeneral)
                     return;
-                BlockLists& crowded = data.sorted.blocks.candidates;
-                crowded.blocks = builder.write(crowded.blocks, Access::StorageWrite);
-                crowded.arguments = builder.write(crowded.arguments, Access::StorageWrite);
+                BlockLists& general = data.sorted.blocks.candidates;
+                general.blocks = builder.write(general.blocks, Access::StorageWrite);
+                general.arguments = builder.write(general.arguments, Access::StorageWrite);
                 data.sorted.counters = builder.write(tiles.counters, Access::StorageWrite);
             },
             [this, params](const Data& data, graph::PassContext& context) {
@@ -178,8 +178,8 @@ BlockSampleOutputs BlockSamples::addFind(
                 // Unused bindings still need a valid descriptor.
                 const bool hasPlanes = data.planes.isValid();
                 const SortedCandidates& layers = data.tiles.candidates;
-                const bool mayCrowd = data.tiles.crowds.isValid();
-                const BlockLists& crowded = data.sorted.blocks.candidates;
+                const BlockLists& general =
+                    data.tiles.isGeneral ? data.sorted.blocks.candidates : lists;
                 gpu::BindingList bindings;
                 for (const graph::BufferHandle buffer :
                      {layers.raster,
@@ -190,9 +190,9 @@ BlockSampleOutputs BlockSamples::addFind(
                       lists.arguments,
                       layers.second.isValid() ? layers.second : layers.raster,
                       data.tiles.parts.isValid() ? data.tiles.parts : layers.raster,
-                      mayCrowd ? crowded.blocks : lists.blocks,
-                      mayCrowd ? crowded.arguments : lists.arguments,
-                      mayCrowd ? data.sorted.counters : lists.blocks})
+                      general.blocks,
+                      general.arguments,
+                      data.tiles.isGeneral ? data.sorted.counters : lists.blocks})
                     bindings.buffer(resources.buffer(buffer));
                 const PassParams own = withCrowds(params, resources, data.tiles.crowds);
                 const gpu::LazyPipeline& pipeline =

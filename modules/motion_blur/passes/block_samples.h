@@ -27,10 +27,11 @@ struct TileInputs {
     graph::BufferHandle parts; ///< of DeformingParts, this frame's raster; invalid: nothing deforms
     graph::BufferHandle crowds;   ///< shader::TileCrowd; invalid: no tile can be crowded
     graph::BufferHandle counters; ///< shader::ResolvedCounters
+    bool isGeneral = false;       ///< InstantMotions::isGeneral()
 };
 
 struct BlockSampleOutputs {
-    SortedBlocks blocks; ///< kUniformList, kMixedList; of crowded tiles: the candidates
+    SortedBlocks blocks; ///< kUniformList, kMixedList; of general tiles: the candidates
     graph::BufferHandle counters;
     graph::BufferHandle blockSamples; ///< shader::BlockSample[block]: a head, then one per instant
                                       ///< of the tables; invalid: none is known

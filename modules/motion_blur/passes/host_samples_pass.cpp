@@ -136,7 +136,7 @@ void HostSamplesPass::addList(
                 data.lists.places.isValid() ? data.lists.places : data.lists.answers;
             bindings.buffer(resources.buffer(places));
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline = mList.get(data.search, data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mList.get(data.search, data.search.isGeneral);
             dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );
@@ -218,7 +218,7 @@ void HostSamplesPass::addCollect(
                  {data.listed.pixels, data.lists.samples, data.lists.answers, data.lists.first})
                 bindings.buffer(resources.buffer(buffer));
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline = mCollect.get(data.search, data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mCollect.get(data.search, data.search.isGeneral);
             dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );

@@ -94,7 +94,7 @@ void InstantSurfacesPass::addOne(
             bindings.buffer(resources.buffer(data.surfaces));
             dispatchPixels(
                 context,
-                mPipelines.get(data.search, data.search.crowds.isValid()),
+                mPipelines.get(data.search, data.search.isGeneral),
                 bindings,
                 withCrowds(params, resources, data.search.crowds),
                 size

@@ -60,7 +60,7 @@ graph::ImageHandle LensDiscs::add(
                     .buffer(resources.buffer(points.points));
                 dispatchList(
                     context,
-                    mPipelines.get(data.search, data.search.crowds.isValid()),
+                    mPipelines.get(data.search, data.search.isGeneral),
                     bindings,
                     withCrowds(params, resources, data.search.crowds),
                     points.arguments,

@@ -38,18 +38,20 @@ gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
 // search has 27 % fewer instructions, and that of `courtyard` takes 0.313 and not 0.324 ms on an
 // NVIDIA H200.
 constexpr uint32_t kWithSecond = 1;
-constexpr uint32_t kWithCrowds = 2;
+constexpr uint32_t kGeneral = 2;
 constexpr uint32_t kWithParts = 4;
 constexpr uint32_t kWithEdges = 8;
 constexpr uint32_t kWithLens = 16;
-constexpr uint32_t kPipelineCount = 32;
+constexpr uint32_t kWithCrowds = 32;
+constexpr uint32_t kPipelineCount = 64;
 
 /// \param desc with constants 0 and 1, if it has any
 gpu::ComputePipelineDesc specialize(gpu::ComputePipelineDesc desc, uint32_t bits) {
     desc.specialization.resize(2);
-    if (bits & kWithCrowds)
+    if (bits & kGeneral)
         desc.specialization[0] = shader::kCandidateList;
-    for (const uint32_t bit : {kWithSecond, kWithCrowds, kWithParts, kWithEdges, kWithLens})
+    for (const uint32_t bit :
+         {kWithSecond, kGeneral, kWithParts, kWithEdges, kWithLens, kWithCrowds})
         desc.specialization.push_back(bits & bit ? 1u : 0u);
     return desc;
 }
@@ -129,8 +131,8 @@ InitialBuffers createInitialBuffers(
         initial.crowds = Crowds::create(graph, params, clears);
     if (takesPoints)
         initial.points = BrightPoints::create(graph, params, clears);
-    // Blocks of crowded tiles use the list that otherwise holds candidates of the ray mask.
-    initial.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
+    // Blocks of general tiles use the list that otherwise holds candidates of the ray mask.
+    initial.blocks = BlockSorter::create(graph, params, motions.isGeneral(), clears);
     return initial;
 }
 
@@ -210,8 +212,10 @@ SearchPipelines::SearchPipelines(gpu::Device& device, const gpu::ComputePipeline
         mPipelines.emplace_back(device, specialize(desc, bits));
 }
 
-const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool hasCrowds) const {
-    uint32_t bits = hasCrowds ? kWithCrowds : 0;
+const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool isGeneral) const {
+    uint32_t bits = isGeneral ? kGeneral : 0;
+    if (isGeneral && search.crowds.isValid())
+        bits |= kWithCrowds;
     if (search.candidates.second.isValid())
         bits |= kWithSecond;
     const bool hasParts =
@@ -261,10 +265,12 @@ ResolvePassOutputs ResolvePass::add(
     const bool hasLast = motions.hasLast && (isKept || motions.lent);
     const bool filtersLens = motions.hasLens && motions.filtersLens;
     auto own = params.getMethod<shader::ResolvedParams>();
-    own.has =
-        (hasLast ? shader::kHasLastLayer : 0u) | (motions.second ? shader::kHasSecondLayer : 0u) |
-        (motions.drawWays ? shader::kHasWays : 0u) |
-        (motions.hasLens ? shader::kHasLensPlaces : 0u) | (filtersLens ? shader::kFiltersLens : 0u);
+    own.has = (hasLast ? shader::kHasLastLayer : 0u) |
+              (motions.second ? shader::kHasSecondLayer : 0u) |
+              (motions.drawWays ? shader::kHasWays : 0u) |
+              (motions.hasLens ? shader::kHasLensPlaces : 0u) |
+              (filtersLens ? shader::kFiltersLens : 0u) |
+              (motions.isGeneral() ? shader::kHasGeneralTiles : 0u);
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
@@ -274,6 +280,7 @@ ResolvePassOutputs ResolvePass::add(
     search.layers = mLayers.add(graph, inputs, params, hasLast);
     search.motionDepth = inputs.motionDepth;
     search.hasLens = motions.hasLens;
+    search.isGeneral = motions.isGeneral();
     search.filtersLens = filtersLens;
     search.edgeSurface = inputs.edgeSurface;
     mHistoryBytes = history ? history->bytes() : 0;
@@ -342,7 +349,8 @@ ResolvePassOutputs ResolvePass::add(
         {search.candidates,
          search.parts[static_cast<size_t>(LayerIndex::Raster)],
          search.crowds,
-         search.counters},
+         search.counters,
+         search.isGeneral},
         BlockSorter::getCleared(initial.blocks, clears),
         params
     );
@@ -366,8 +374,10 @@ ResolvePassOutputs ResolvePass::add(
         outputs.picture = mBlocks.addResolve(
             graph, raster, outputs.blocks, search.blockSamples, outputs.picture, params
         );
-    addResolve(graph, outputs, false, params);
-    if (motions.mayCrowd)
+    // With pixels to list all blocks are general ones: that pipeline takes long to compile.
+    if (!mListsPixels || !search.isGeneral)
+        addResolve(graph, outputs, false, params);
+    if (search.isGeneral)
         addResolve(graph, outputs, true, params);
     return outputs;
 }
@@ -403,15 +413,16 @@ SortedCandidates ResolvePass::addSort(
             gpu::BindingList bindings;
             for (const graph::BufferHandle buffer : {data.raster, data.last, data.second})
                 bindings.buffer(context.resources.buffer(buffer.isValid() ? buffer : data.raster));
-            // Its groups have half the rows of others.
-            const glm::uvec2 extent = countCandidateTiles(params) * glm::uvec2(1, 2);
+            const glm::uvec2 tiles = countCandidateTiles(params);
+            const uint32_t groupRows = (tiles.y + shader::kSortRows - 1) / shader::kSortRows;
+            const glm::uvec2 extent(tiles.x, groupRows * shader::kGroupSize);
             dispatchPixels(context, mSort.get(), bindings, params, extent);
         }
     );
 }
 
 void ResolvePass::addResolve(
-    graph::Graph& graph, ResolvePassOutputs& outputs, bool areCrowded, const PassParams& params
+    graph::Graph& graph, ResolvePassOutputs& outputs, bool isGeneral, const PassParams& params
 ) const {
     struct Data {
         SearchResources search;
@@ -420,9 +431,9 @@ void ResolvePass::addResolve(
         graph::ImageHandle picture;
     };
 
-    const BlockLists& lists = areCrowded ? outputs.blocks.candidates : outputs.blocks.lists;
+    const BlockLists& lists = isGeneral ? outputs.blocks.candidates : outputs.blocks.lists;
     const Data& pass = graph.addPass<Data>(
-        areCrowded ? "resolve crowds" : "resolve",
+        isGeneral ? "resolve, general" : "resolve",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.search = outputs.search;
@@ -436,7 +447,7 @@ void ResolvePass::addResolve(
                     builder.write(outputs.listed.arguments, Access::StorageWrite)};
             data.picture = builder.write(outputs.picture, Access::StorageWriteDisjoint);
         },
-        [this, areCrowded, params](const Data& data, graph::PassContext& context) {
+        [this, isGeneral, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.blocks.blocks));
@@ -446,11 +457,11 @@ void ResolvePass::addResolve(
                 bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));
             dispatchList(
                 context,
-                mResolve.get(data.search, areCrowded),
+                mResolve.get(data.search, isGeneral),
                 bindings,
                 withCrowds(params, resources, data.search.crowds),
                 data.blocks.arguments,
-                areCrowded ? shader::kCandidateList : shader::kMixedList
+                isGeneral ? shader::kCandidateList : shader::kMixedList
             );
         }
     );
@@ -474,7 +485,7 @@ MotionBlurOutputs ResolvePass::end(
         inputs.color,
         found.picture,
         found.blocks,
-        found.search.crowds.isValid(),
+        found.search.isGeneral,
         params,
         found.stillPixelsBy
     );

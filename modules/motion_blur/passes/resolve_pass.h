@@ -36,6 +36,7 @@ struct SearchResources {
     std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
     graph::BufferHandle counters;             ///< shader::ResolvedCounters
     bool hasLens = false;                     ///< InstantMotions::hasLens
+    bool isGeneral = false;                   ///< InstantMotions::isGeneral()
     bool filtersLens = false;                 ///< so does LensFilter
 
     /// Declares the reads; the counters are written.
@@ -54,12 +55,11 @@ struct ListedPixels {
 /// The pipelines of a pass that searches.
 class SearchPipelines {
   public:
-    /// \param desc whose constants 2 to 6 are set here (resolved_layers.glsl,
-    /// resolved_crowd_search.glsl)
+    /// \param desc whose constants 2 to 7 are set here (resolved_layers.glsl)
     SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
 
-    /// \param hasCrowds pixels of crowded tiles are searched
-    [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool hasCrowds) const;
+    /// \param isGeneral pixels of general tiles are searched (InstantMotions::isGeneral())
+    [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool isGeneral) const;
 
   private:
     /// On software devices: Mesa's compiler makes a search of `courtyard` that takes 28.7 ms
@@ -112,9 +112,9 @@ class ResolvePass {
     /// Nearest first.
     [[nodiscard]] SortedCandidates
     addSort(graph::Graph& graph, const SortedCandidates& listed, const PassParams& params) const;
-    /// \param areCrowded the blocks of crowded tiles; otherwise those that see several planes
+    /// \param isGeneral the blocks of general tiles; otherwise those that see several planes
     void addResolve(
-        graph::Graph& graph, ResolvePassOutputs& outputs, bool areCrowded, const PassParams& params
+        graph::Graph& graph, ResolvePassOutputs& outputs, bool isGeneral, const PassParams& params
     ) const;
 
     bool mListsPixels;

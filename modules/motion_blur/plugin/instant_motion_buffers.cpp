@@ -73,7 +73,11 @@ void InstantMotionBuffers::extract(
 
 InstantMotions InstantMotionBuffers::declare(const render::PostContext& context) {
     InstantMotions motions;
-    motions.table = writeInstantLayers(mDevice, mTables, mBuffers.at(context.slot));
+    const WrittenLayers written = writeInstantLayers(
+        mDevice, mTables, {context.facts.width, context.facts.height}, mBuffers.at(context.slot)
+    );
+    motions.table = written.table;
+    motions.mayHide = written.mayHide;
     motions.instantCount = mInstantCount;
     motions.hasLens = !mTables.lens.empty();
     motions.filtersLens = !context.view.lensTurn;
