@@ -119,4 +119,9 @@ LayerBuilder::LayerBuilder(
         ));
 }
 
+void LayerBuilder::addFixed(size_t row) {
+    mTables.movers[row] = static_cast<uint32_t>(mTables.motions.size() / mPictures.size());
+    mTables.motions.insert(mTables.motions.end(), mPictures.size(), makeInstantMotion(dmat4(1.0)));
+}
+
 } // namespace shutter::math

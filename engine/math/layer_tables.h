@@ -86,6 +86,9 @@ class LayerBuilder {
             );
     }
 
+    /// A row that has the same place in the picture at every instant, whatever the camera does.
+    void addFixed(size_t row);
+
     /// \param kind shader::kDeformedMover or shader::kNoMover
     void setMover(size_t row, uint32_t kind) {
         mTables.movers[row] = kind;

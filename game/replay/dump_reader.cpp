@@ -182,7 +182,14 @@ void readLens(const JsonNode& node, DumpFrame& frame) {
 
 void readMotion(const JsonNode& node, DumpFrame& frame) {
     const JsonObject object = node.readObject(
-        {"aheadIsPlusZ", "rowCount", "followsLast", "keys", "movers", "rowIds", "lens"}
+        {"aheadIsPlusZ",
+         "rowCount",
+         "followsLast",
+         "keys",
+         "movers",
+         "rowIds",
+         "viewModelRows",
+         "lens"}
     );
     frame.hasMotion = true;
     frame.motion.aheadIsPlusZ = object.require("aheadIsPlusZ").readBoolean();
@@ -213,6 +220,11 @@ void readMotion(const JsonNode& node, DumpFrame& frame) {
         frame.rowIds.push_back(readId(one));
     if (!frame.rowIds.empty() && frame.rowIds.size() != frame.motion.rowCount)
         ids.fail("must have one id for each of the {} rows, or none", frame.motion.rowCount);
+    if (const auto rows = object.find("viewModelRows"); rows && !rows->isNull())
+        for (const JsonNode& one : rows->readArray())
+            frame.viewModelRows.push_back(
+                uint32_t(one.readInteger(0, int64_t{frame.motion.rowCount} - 1))
+            );
     const auto lens = object.find("lens"); // older dumps have none
     if (lens && !lens->isNull())
         readLens(*lens, frame);

@@ -203,6 +203,7 @@ class Player {
             mMovers.push_back({frame.moverRows[i], frame.moverMatrices[i]});
         inputs.motion.movers = mMovers;
         inputs.motion.rowIds = frame.rowIds;
+        inputs.motion.viewModelRows = frame.viewModelRows;
         inputs.motion.lens.focusDistances = frame.focusDistances;
         if (frame.reveal == DumpedReveal::Own)
             inputs.reveal = mReveal.answer(frame);

@@ -501,6 +501,97 @@ TEST_F(EmbeddedConventions, ScalesOfTheMotionScaleTheBlur) {
     EXPECT_TRUE(test::sameBits(draw(weapon), draw(ownInputs())));
 }
 
+/// A host without keys, of which two cameras and depth are all that it has.
+TEST_F(EmbeddedConventions, TwoCamerasAreTwoKeysForResolved) {
+    HostInputs inputs = movingCameraInputs();
+    inputs.convention.vectors = {};
+    const motion_blur::HostCameras& cameras = inputs.convention.cameras;
+    const MotionBlurSettings settings = test::settingsOf("resolved", 5);
+    const std::array<motion_blur::HostCameraKey, 2> keys{{
+        {motion_blur::timeOfFrameBefore(inputs),
+         cameras.viewFromWorldBefore,
+         cameras.clipFromViewBefore},
+        {1.0, cameras.viewFromWorld, cameras.clipFromView},
+    }};
+    HostInputs withKeys = inputs;
+    withKeys.motion.keys = keys;
+    const image::Image own = draw(withKeys, settings);
+    EXPECT_TRUE(test::sameBits(draw(inputs, settings), own));
+    MotionBlurSettings byDefault;
+    byDefault.sampleCount = 5;
+    EXPECT_TRUE(test::sameBits(draw(inputs, byDefault), own)) << "resolved is the default then";
+    HostInputs cut = inputs;
+    cut.convention.scales.isCut = true;
+    cut.convention.cameras.viewFromWorldBefore = math::dmat4(0.0);
+    const image::Image sharp = draw(cut, settings);
+    EXPECT_FALSE(test::sameBits(sharp, own));
+    // The raster's jitter is in both keys, so that all but the border's rounding is the same.
+    inputs.convention.cameras.jitterPx = {0.25, -0.25};
+    expectNear(draw(inputs, settings), own, 30.0);
+    // Vectors alone say how objects move: then the default is gather.
+    HostInputs withVectors = movingCameraInputs();
+    EXPECT_TRUE(test::sameBits(draw(withVectors, {}), draw(withVectors, test::settingsOf("gather")))
+    );
+}
+
+TEST_F(EmbeddedConventions, ScalesOfTheMotionScaleTheKeysOfResolved) {
+    HostInputs inputs = movingCameraInputs();
+    inputs.convention.vectors = {};
+    const MotionBlurSettings settings = test::settingsOf("resolved", 5);
+    HostInputs half = inputs;
+    half.convention.scales.exposureShare = 0.5f;
+    const image::Image own = draw(half, settings);
+    EXPECT_LT(image::computePsnr(draw(inputs, settings), own), 45.0);
+    half = inputs;
+    half.convention.scales.camera = 0.5f;
+    expectNear(draw(half, settings), own, 70.0);
+    HostInputs none = inputs;
+    none.convention.scales.camera = 0.0f;
+    HostInputs cut = inputs;
+    cut.convention.scales.isCut = true;
+    EXPECT_TRUE(test::sameBits(draw(none, settings), draw(cut, settings)));
+
+    // A mover: its own motion has a scale of its own.
+    const math::dmat4 unit(1.0);
+    const std::array<math::dmat4, 2> moved{glm::translate(unit, math::dvec3(-0.4, 0.0, 0.0)), unit};
+    const motion_blur::HostMover mover{7, moved};
+    none.motion.movers = {&mover, 1};
+    none.motion.rowCount = 201;
+    none.entityId = make(VK_FORMAT_R32_UINT, drawn.ids);
+    EXPECT_FALSE(test::sameBits(draw(none, settings), draw(cut, settings)));
+    none.convention.scales.object = 0.0f;
+    EXPECT_TRUE(test::sameBits(draw(none, settings), draw(cut, settings)));
+}
+
+TEST_F(EmbeddedConventions, AViewModelIsSharpBeforeABlurredBackground) {
+    HostInputs inputs = movingCameraInputs();
+    inputs.convention.vectors = {};
+    const MotionBlurSettings settings = test::settingsOf("resolved", 5);
+    const std::array<uint32_t, 1> rows{7};
+    inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids);
+    inputs.motion.rowCount = 201;
+    const image::Image blurred = draw(inputs, settings);
+    inputs.motion.viewModelRows = rows;
+    const image::Image made = draw(inputs, settings);
+    size_t sharp = 0;
+    size_t wasSharp = 0;
+    size_t blurredPixels = 0;
+    for (size_t i = 0; i < kConventionPixels; ++i) {
+        const auto differs = [&](const image::Image& picture) {
+            return std::memcmp(&picture.pixels[4 * i], &drawn.color[i], 3 * sizeof(float)) != 0;
+        };
+        if (drawn.ids[i] == 7) {
+            sharp += !differs(made);
+            wasSharp += !differs(blurred);
+        } else {
+            blurredPixels += differs(made);
+        }
+    }
+    EXPECT_EQ(sharp, 30u * 30u);
+    EXPECT_LT(wasSharp, 30u * 30u);
+    EXPECT_GT(blurredPixels, kConventionPixels / 4);
+}
+
 /// HostInputs::showsInputs: panels cover a part of the picture, and of nothing else. The left half
 /// moves by itself; the camera is static.
 class EmbeddedOverlay : public EmbeddedConventions {

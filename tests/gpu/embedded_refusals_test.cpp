@@ -411,6 +411,44 @@ TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
     expectRefused("exposureShare is -1");
 }
 
+TEST_F(EmbeddedRefusals, ScalesThatAMethodCannotHonourAreNamed) {
+    motion_blur::HostScales& scales = inputs.convention.scales;
+    scales.camera = 0.5f;
+    expectRefused(inputs, plain(), "cameraScale is 0.5, it must be 1: motionDepth is given");
+    scales.camera = 1.0f;
+    scales.object = 0.0f;
+    expectRefused(inputs, plain(), "objectScale is 0, it must be 1: motionDepth is given");
+    scales.object = 1.0f;
+    scales.perPixel = {mHost->output.handle(), kSampled, kSampled};
+    expectRefused(
+        inputs, plain(), "blurScale.image is given, which does not count with motionDepth"
+    );
+    inputs.convention.depth.image = inputs.motionDepth;
+    inputs.convention.depth.image.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    inputs.convention.depth.isLinear = true;
+    inputs.convention.cameras.areGiven = true;
+    inputs.convention.cameras.clipFromView = inputs.convention.cameras.clipFromViewBefore =
+        makeKey().clipFromView;
+    inputs.motionDepth = {};
+    inputs.output = {};
+    scales.perPixel.format = VK_FORMAT_R16_SFLOAT;
+    expectRefused(
+        inputs,
+        settingsOf("resolved"),
+        "blurScale.image is given, which the method resolved cannot honour; for a weapon or "
+        "cockpit "
+        "give viewModelRows"
+    );
+    scales.perPixel = {};
+    const std::array<uint32_t, 1> rows{0};
+    inputs.motion.viewModelRows = rows;
+    expectRefused(
+        inputs,
+        settingsOf("resolved"),
+        "entityId.image is null, although viewModelRows has 1 row: ids mark their pixels"
+    );
+}
+
 TEST_F(EmbeddedRefusals, TheDefaultMethodInPlaceOfResolvedIsReportedOnce) {
     std::string reported;
     HostDevice host = describeHost();
@@ -454,6 +492,11 @@ TEST_F(EmbeddedRefusals, MissingInputsOfResolvedAreNamed) {
     EXPECT_TRUE(record(inputs, plain()).ok()) << "it needs no motion";
     // Movers with neither vectors nor matrices.
     const HostCameraKey key = makeKey();
+    inputs.motion.keys = {&key, 1};
+    inputs.motion.rowCount = 1;
+    inputs.entityId = mHost->ids();
+    inputs.entityId.format = VK_FORMAT_R8_UINT;
+    expectRefused("noEntity is 4294967295, but entityId holds values up to 255");
     const std::array matrices{math::dmat4(1.0)};
     const std::array<motion_blur::HostMover, 2> movers{{{7, matrices}, {200, {}}}};
     inputs.entityId = mHost->ids();

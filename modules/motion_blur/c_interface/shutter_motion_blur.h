@@ -151,8 +151,9 @@ typedef struct ShutterBlurValue {
 
 typedef struct ShutterBlurSettings {
     uint32_t structBytes;
-    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null, gather, which is
-     * reported to `message`. */
+    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null and cannot be
+     * made of inputs.cameras, or vectors alone tell how objects move, gather, which is reported to
+     * `message`. */
     const char* method;
     uint32_t sampleCount; /* taps or instants; 0: the method's own number */
     uint32_t valueCount;
@@ -239,10 +240,10 @@ typedef struct ShutterBlurCameraKey {
 /* An entity that may not be static in the world, for "resolved". */
 typedef struct ShutterBlurMover {
     uint32_t row; /* its value in `entityId`, below rowCount */
-    /* World from the entity's own space, 16 numbers for each camera key: affine, with any scale;
-     * where it is singular, the entity is hidden. Null: it deforms, or its motion is unknown; its
-     * pixels then move by ShutterBlurInputs::deformedMotion or else straight along their motion
-     * vectors. */
+    /* World from the entity's own space, 16 numbers for each camera key, or where `keys` is null
+     * for the frame before and for this one: affine, with any scale; where it is singular, the
+     * entity is hidden. Null: it deforms, or its motion is unknown; its pixels then move by
+     * ShutterBlurInputs::deformedMotion or else straight along their motion vectors. */
     const double* worldFromObject;
 } ShutterBlurMover;
 
@@ -256,8 +257,8 @@ typedef struct ShutterBlurLens {
      * and no field below counts. */
     double radius;
     double focusDistance; /* along the view, metres, [1e-4, 1e9] */
-    /* One for each camera key in place of focusDistance, for a focus that is pulled during the
-     * exposure; its inverse is linear in between. Null: none. */
+    /* One for each camera key, or two as of worldFromObject, in place of focusDistance, for a focus
+     * that is pulled during the exposure; its inverse is linear in between. Null: none. */
     const double* focusDistances;
     double bladeRotation; /* of the first corner from the right, counterclockwise, [-2 pi, 2 pi] */
     double roundness;     /* of the sides, [0, 1]; 1: a disc */
@@ -413,12 +414,18 @@ typedef struct ShutterBlurInputs {
     /* Exposure divided by the time between frames, [0, 16]: 0.5 is a 180-degree shutter. With
      * motionDepth only "rosado2007" uses it, for the motion from `cameras`. */
     float exposureShare;
-    float cameraScale; /* scale of the blur by camera motion, [0, 16] */
-    float objectScale; /* scale of the blur by object motion, [0, 16] */
+    /* Scale of the blur by camera motion and by object motion, [0, 16]. With keys the camera and
+     * the movers go their ways faster or slower from rasterTime on, as far as their keys reach.
+     * Must be 1 with motionDepth (but for "rosado2007"), with deformedMotion where that counts, and
+     * for "adaptive". */
+    float cameraScale;
+    float objectScale;
     /* Displayed frames per rendered frame, with frame generation, [1, 16]: the exposure, and so the
      * blur, is divided by this. */
     float displayedPerRendered;
-    ShutterBlurImage blurScale; /* R8, R16F or R32F: scale of the blur per pixel; null: 1 */
+    /* R8, R16F or R32F: scale of the blur per pixel; null: 1. Refused with motionDepth, and by
+     * "resolved" and "adaptive": see viewModelRows. */
+    ShutterBlurImage blurScale;
     /* The previous frame showed another place, or there is none: nothing is blurred, and the
      * previous cameras are ignored. Without motionDepth, followsLast and all `keys` but the
      * raster's are ignored, too. */
@@ -431,11 +438,14 @@ typedef struct ShutterBlurInputs {
     /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
      * is static in the world, and rowCount does not count. */
     ShutterBlurImage entityId;
-    uint32_t noEntity; /* its value for the background */
+    uint32_t noEntity; /* its value for the background, which the format must hold */
     /* [1, 2^24 - 1]. Values are rows below it; a pixel of another one, but noEntity, counts as
      * unresolved. */
     uint32_t rowCount;
-    uint32_t keyCount; /* [1, 64] */
+    /* [1, 64]; 0, where cameras are given and motionDepth is not: two keys are made of them, the
+     * frame before at shutterBlurGetTimeBefore() and this one. More keys are better where the
+     * camera turns. */
+    uint32_t keyCount;
     /* Times rising, one at rasterTime; ahead by cameras.aheadIsPlusZ. They alone determine the
      * length of the exposure: exposureShare scales vectors. */
     const ShutterBlurCameraKey* keys;
@@ -511,6 +521,13 @@ typedef struct ShutterBlurInputs {
     /* For "resolved" and "adaptive", with perspective `keys`; other methods refuse it. Movers are
      * not required, nor a camera that moves. */
     ShutterBlurLens lens;
+
+    /* For "resolved" and "adaptive": rows of a view model, such as a weapon or cockpit, that is
+     * drawn with any projection and range of depth and follows the camera: it is sharp, and what it
+     * hides is blurred behind it. None of them is a mover. Filters take such pixels' motion from
+     * `vectors` or `blurScale`. */
+    const uint32_t* viewModelRows;
+    uint32_t viewModelRowCount;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {

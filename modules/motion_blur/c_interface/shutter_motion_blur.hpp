@@ -146,6 +146,11 @@ struct BlurInputs : ShutterBlurInputs {
         blur_detail::point(array, movers, moverCount);
     }
 
+    /// An array of uint32_t.
+    template <class Array> void setViewModelRows(Array& array) {
+        blur_detail::point(array, viewModelRows, viewModelRowCount);
+    }
+
     /// An array of ShutterBlurResponsePoint.
     template <class Array> void setResponse(Array& array) {
         blur_detail::point(array, responsePoints, responsePointCount);

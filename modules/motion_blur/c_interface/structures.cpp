@@ -89,9 +89,17 @@ core::Status checkArray(const char* name, const void* array, const char* count, 
 core::Status checkArrays(const ShutterBlurInputs& given) {
     SHUTTER_TRY(checkArray("keys", given.keys, "keyCount", given.keyCount));
     SHUTTER_TRY(checkArray("movers", given.movers, "moverCount", given.moverCount));
+    SHUTTER_TRY(checkArray(
+        "viewModelRows", given.viewModelRows, "viewModelRowCount", given.viewModelRowCount
+    ));
     return checkArray(
         "responsePoints", given.responsePoints, "responsePointCount", given.responsePointCount
     );
+}
+
+/// Of a mover's matrices; without keys they are those of the frame before and of this one.
+uint32_t countMatrices(const ShutterBlurInputs& given) {
+    return given.keyCount > 0 ? given.keyCount : 2;
 }
 
 HostLens convertLens(const ShutterBlurInputs& given) {
@@ -99,7 +107,7 @@ HostLens convertLens(const ShutterBlurInputs& given) {
     lens.radius = given.lens.radius;
     lens.focusDistance = given.lens.focusDistance;
     if (given.lens.focusDistances)
-        lens.focusDistances = {given.lens.focusDistances, given.keyCount};
+        lens.focusDistances = {given.lens.focusDistances, countMatrices(given)};
     lens.bladeRotation = given.lens.bladeRotation;
     lens.roundness = given.lens.roundness;
     lens.squeeze = given.lens.squeeze;
@@ -118,15 +126,15 @@ HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
     arrays.matrices.clear();
     for (uint32_t i = 0; i < given.moverCount; ++i)
         if (const double* matrices = given.movers[i].worldFromObject)
-            for (uint32_t key = 0; key < given.keyCount; ++key)
+            for (uint32_t key = 0; key < countMatrices(given); ++key)
                 arrays.matrices.push_back(convertMatrix(matrices + 16 * size_t{key}));
     arrays.movers.clear();
     size_t first = 0; // the matrices have their places from here on
     for (uint32_t i = 0; i < given.moverCount; ++i) {
         HostMover mover{given.movers[i].row, {}};
         if (given.movers[i].worldFromObject) {
-            mover.worldFromObject = {arrays.matrices.data() + first, given.keyCount};
-            first += given.keyCount;
+            mover.worldFromObject = {arrays.matrices.data() + first, countMatrices(given)};
+            first += countMatrices(given);
         }
         arrays.movers.push_back(mover);
     }
@@ -137,6 +145,8 @@ HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
     motion.movers = arrays.movers;
     if (given.rowIds)
         motion.rowIds = {given.rowIds, given.rowCount};
+    if (given.viewModelRows)
+        motion.viewModelRows = {given.viewModelRows, given.viewModelRowCount};
     motion.view = given.view;
     motion.followsLast = given.followsLast != VK_FALSE;
     motion.lens = convertLens(given);

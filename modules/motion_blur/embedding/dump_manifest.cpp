@@ -100,6 +100,9 @@ ordered_json describeMotion(const HostMotion& motion) {
     ordered_json& ids = root["rowIds"] = ordered_json::array();
     for (const uint64_t id : motion.rowIds)
         ids.push_back(std::to_string(id));
+    if (!motion.viewModelRows.empty())
+        root["viewModelRows"] =
+            std::vector(motion.viewModelRows.begin(), motion.viewModelRows.end());
     if (motion.lens.isOpen())
         root["lens"] = describeLens(motion.lens);
     return root;

@@ -6,11 +6,14 @@
 #include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
 #include "modules/motion_blur/embedding/host_dump.h"
+#include "modules/motion_blur/embedding/host_keys.h"
 #include "modules/motion_blur/embedding/host_overlay.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,10 +161,17 @@ core::Status EmbeddedMotionBlur::record(
 core::Status EmbeddedMotionBlur::checkAndRecord(
     VkCommandBuffer commands,
     uint32_t frame,
-    const HostInputs& inputs,
+    const HostInputs& given,
     const MotionBlurSettings& wanted
 ) {
     mHasLeftAPart = false;
+    std::array<HostCameraKey, 2> keys;
+    std::optional<HostInputs> withKeys;
+    if (derivesKeys(given, wanted)) {
+        keys = deriveKeys(given);
+        withKeys.emplace(given).motion.keys = keys;
+    }
+    const HostInputs& inputs = withKeys ? *withKeys : given;
     const bool knowsMotions = !inputs.motion.keys.empty();
     const MotionBlurSettings settings = complete(wanted, knowsMotions);
     try {
@@ -172,8 +182,8 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
         mHasLeftAPart = true;
         if (!wanted.method && !knowsMotions && !inputs.isOff &&
             !std::exchange(mReportsMethod, true))
-            warn("motion blur: keys is empty, so the default method is gather in place of "
-                 "resolved");
+            warn("motion blur: keys is empty, so the default method is gather in place of resolved"
+            );
         Slot& slot = *mSlots[frame];
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
         graph::Graph graph;

@@ -8,6 +8,8 @@
 #include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/host_samples_shared.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -210,17 +212,64 @@ core::Status checkMoversAreKnown(const HostInputs& inputs) {
     return {};
 }
 
+/// Motion is blurred as the host scales it, or the field is refused.
+core::Status checkScalesCount(const HostInputs& inputs, const Method& method) {
+    const HostScales& scales = inputs.convention.scales;
+    const bool isPacked = inputs.motionDepth.image != VK_NULL_HANDLE;
+    if (scales.perPixel.image && (isPacked || method.readsInstantMotions))
+        return makeError(
+            "motion blur: blurScale.image is given, which {}",
+            isPacked
+                ? "does not count with motionDepth; scale that"
+                : fmt::format(
+                      "the method {} cannot honour; for a weapon or cockpit give viewModelRows",
+                      method.name
+                  )
+        );
+    for (const auto& [name, scale] :
+         {std::pair{"cameraScale", scales.camera}, std::pair{"objectScale", scales.object}}) {
+        if (scale == 1.0f)
+            continue;
+        const char* reason = nullptr;
+        if (isPacked && !method.readsCamera)
+            reason = "motionDepth is given; scale that";
+        else if (method.rays == RayNeed::Query)
+            reason = "recordSamples answers for the motion as it is";
+        else if (method.readsInstantMotions && inputs.deformedMotion.image)
+            reason = "deformedMotion holds the motion as it is";
+        if (reason)
+            return makeError("motion blur: {} is {}, it must be 1: {}", name, scale, reason);
+    }
+    return {};
+}
+
 /// Movers require ids that mark their pixels.
 core::Status checkIds(const HostInputs& inputs, const Method& method, const HostAbilities& host) {
     if (method.readsInstantMotions && isOneWorld(inputs))
         return {};
+    if (method.readsInstantMotions && !inputs.entityId.image &&
+        !inputs.motion.viewModelRows.empty())
+        return makeError(
+            "motion blur: entityId.image is null, although viewModelRows has {}: ids mark their "
+            "pixels",
+            core::countOf(inputs.motion.viewModelRows.size(), "row")
+        );
     if (method.readsInstantMotions && !inputs.entityId.image)
         return makeError(
             "motion blur: entityId.image is null, although movers has {}: ids mark their "
             "pixels",
             core::countOf(inputs.motion.movers.size(), "row")
         );
-    return check(inputs.entityId, kIdRule, pictureOf(inputs), host);
+    SHUTTER_TRY(check(inputs.entityId, kIdRule, pictureOf(inputs), host));
+    const VkFormat format = formatOf(inputs.entityId, kIdRule);
+    const uint32_t most = format == VK_FORMAT_R8_UINT    ? 0xFFu
+                          : format == VK_FORMAT_R16_UINT ? 0xFFFFu
+                                                         : 0xFFFFFFFFu;
+    if (inputs.noEntity > most)
+        return makeError(
+            "motion blur: noEntity is {}, but entityId holds values up to {}", inputs.noEntity, most
+        );
+    return {};
 }
 
 core::Status checkMethod(
@@ -240,6 +289,7 @@ core::Status checkMethod(
             inputs.motion.lens.radius,
             method.name
         );
+    SHUTTER_TRY(checkScalesCount(inputs, method));
     if (method.rays == RayNeed::Query)
         SHUTTER_TRY(checkSamples(inputs, settings, host));
     if (method.rays == RayNeed::Any)
@@ -362,7 +412,8 @@ VkExtent2D pictureOf(const HostInputs& inputs) {
 }
 
 bool isOneWorld(const HostInputs& inputs) {
-    return !inputs.entityId.image && inputs.motion.movers.empty();
+    return !inputs.entityId.image && inputs.motion.movers.empty() &&
+           inputs.motion.viewModelRows.empty();
 }
 
 HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& movers) {
@@ -371,7 +422,11 @@ HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& mover
         motion.rowCount = 1;
         motion.rowIds = {};
     }
-    if (inputs.convention.scales.isCut && !inputs.motionDepth.image)
+    if (inputs.motionDepth.image)
+        return motion;
+    motion.cameraScale = inputs.convention.scales.camera;
+    motion.objectScale = inputs.convention.scales.object;
+    if (inputs.convention.scales.isCut)
         keepRasterKey(motion, inputs.rasterTime, movers);
     return motion;
 }

@@ -52,7 +52,8 @@ class Builder {
         mRasterKey = size_t(raster - motion.keys.begin());
         for (uint32_t i = 0; i < frame.instantCount; ++i) {
             mTimes.push_back(invertResponse(motion.response, (i + 0.5) / frame.instantCount));
-            mPlaces.push_back(locate(motion.keys, mTimes.back()));
+            mPlaces.push_back(place(mTimes.back(), motion.cameraScale));
+            mObjectPlaces.push_back(place(mTimes.back(), motion.objectScale));
             mPictures.push_back(mCamera.at(mPlaces.back()).pictureFromWorld(frame.sizePx));
         }
         mMoverOfRow.assign(motion.rowCount, kNone);
@@ -63,6 +64,9 @@ class Builder {
             if (!mover.worldFromObject.empty())
                 way.emplace(mover.worldFromObject);
         }
+        mIsViewModel.assign(motion.rowCount, false);
+        for (const uint32_t row : motion.viewModelRows)
+            mIsViewModel[row] = true;
     }
 
     HostInstants run(const HostRaster* last) const {
@@ -85,6 +89,14 @@ class Builder {
   private:
     [[nodiscard]] bool isPerspective() const { return mCamera.atKey(0).isPerspective; }
 
+    /// Between the keys, for motion that is scaled about the raster.
+    [[nodiscard]] BetweenKeys place(double time, double scale) const {
+        if (scale == 0.0)
+            return {mRasterKey, mRasterKey, 0.0};
+        const double scaled = mFrame.rasterTime + (time - mFrame.rasterTime) * scale;
+        return locate(mMotion.keys, scale == 1.0 ? time : scaled);
+    }
+
     [[nodiscard]] HostRaster makeRaster() const {
         HostRaster raster;
         raster.sizePx = mFrame.sizePx;
@@ -97,6 +109,9 @@ class Builder {
                 {mover.row, deforms, deforms ? dmat4(1.0) : mover.worldFromObject[mRasterKey]}
             );
         }
+        // Nothing of it is looked up in the next frame: that has its own.
+        for (const uint32_t row : mMotion.viewModelRows)
+            raster.movers.push_back({row, true, dmat4(1.0)});
         raster.rowIds.assign(mMotion.rowIds.begin(), mMotion.rowIds.end());
         return raster;
     }
@@ -137,7 +152,7 @@ class Builder {
         if (way.staysAt(worldFromObject))
             return;
         layer.addMover(row, worldFromObject, [&](size_t instant) {
-            return way.at(mPlaces[instant]);
+            return way.at(mObjectPlaces[instant]);
         });
     }
 
@@ -145,11 +160,15 @@ class Builder {
         LayerBuilder layer(picture, mPictures, isPerspective(), mMotion.rowCount);
         for (size_t i = 0; i < mMotion.movers.size(); ++i) {
             const HostMover& mover = mMotion.movers[i];
+            if (mWays[i] && mMotion.objectScale == 0.0)
+                continue; // it stays in the world where the raster has it
             if (mWays[i])
                 addMover(layer, mover.row, *mWays[i], mover.worldFromObject[mRasterKey]);
             else
                 layer.setMover(mover.row, shader::kDeformedMover);
         }
+        for (const uint32_t row : mMotion.viewModelRows)
+            layer.addFixed(row);
         return layer.take();
     }
 
@@ -192,7 +211,8 @@ class Builder {
         for (uint32_t row = 0; row < last.rowCount; ++row) {
             const HostRaster::Mover* const then = moverThen[row];
             const uint32_t moverNow = rows[row] == kNone ? kNone : mMoverOfRow[rows[row]];
-            if (rows[row] != kNone && moverNow == kNone && !then)
+            const bool isViewModel = rows[row] != kNone && mIsViewModel[rows[row]];
+            if (rows[row] != kNone && moverNow == kNone && !then && !isViewModel)
                 continue; // was and is static
             const bool bothDeform = then && then->deforms && moverNow != kNone && !mWays[moverNow];
             // Without both transforms or its pixels' motion, its place is unknown.
@@ -212,9 +232,11 @@ class Builder {
     CameraWay mCamera;
     size_t mRasterKey = 0;
     std::vector<double> mTimes;                 ///< of the instants
-    std::vector<BetweenKeys> mPlaces;           ///< one per instant
+    std::vector<BetweenKeys> mPlaces;           ///< the camera's, one per instant
+    std::vector<BetweenKeys> mObjectPlaces;     ///< the movers', one per instant
     std::vector<dmat4> mPictures;               ///< one per instant
     std::vector<uint32_t> mMoverOfRow;          ///< index of movers, or kNone
+    std::vector<bool> mIsViewModel;             ///< by row
     std::vector<std::optional<MoverWay>> mWays; ///< one per mover; nothing: by motion vectors
 };
 

@@ -49,6 +49,9 @@ struct HostMotion {
     uint32_t rowCount = 0;
     std::span<const HostMover> movers;
     std::span<const uint64_t> rowIds;
+    std::span<const uint32_t> viewModelRows; ///< ShutterBlurInputs::viewModelRows
+    double cameraScale = 1.0;                ///< HostScales::camera, where the convention counts
+    double objectScale = 1.0;
     /// The table in main memory that HostInputs::response is the address of; null where that is 0.
     const shader::ResponseTable* response = nullptr;
     HostLens lens;

@@ -156,6 +156,23 @@ core::Status checkMovers(const HostMotion& motion) {
     return {};
 }
 
+core::Status checkViewModelRows(const HostMotion& motion) {
+    SHUTTER_TRY(checkSpan("viewModelRows", motion.viewModelRows));
+    std::vector<bool> isMover(motion.rowCount);
+    for (const HostMover& mover : motion.movers)
+        isMover[mover.row] = true;
+    for (size_t i = 0; i < motion.viewModelRows.size(); ++i) {
+        const uint32_t row = motion.viewModelRows[i];
+        if (row >= motion.rowCount)
+            return makeError(
+                "motion blur: viewModelRows[{}] is {}, rowCount {}", i, row, motion.rowCount
+            );
+        if (isMover[row])
+            return makeError("motion blur: viewModelRows[{}] is {}, as a mover's row is", i, row);
+    }
+    return {};
+}
+
 core::Status checkLensShape(const HostLens& lens) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     if (!(lens.radius > 0.0 && lens.radius <= kMaxLensRadius))
@@ -262,6 +279,7 @@ core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame)
             "motion blur: rowCount is {}, it must be 1 to {}", motion.rowCount, kMaxRows
         );
     SHUTTER_TRY(checkMovers(motion));
+    SHUTTER_TRY(checkViewModelRows(motion));
     SHUTTER_TRY(checkLens(motion));
     SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));
     if (!motion.rowIds.empty() && motion.rowIds.size() != motion.rowCount)

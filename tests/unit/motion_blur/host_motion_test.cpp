@@ -248,6 +248,50 @@ TEST_F(HostInstantsTest, EverythingIsStaticOutsideOfTheKeys) {
     );
 }
 
+TEST_F(HostInstantsTest, AScaleSlowsTheCameraAndTheMoversAboutTheRaster) {
+    setKeys({-1.0, 0.0, 0.5, 1.0});
+    addTumbler();
+    // Half of the motion is that of an exposure of half the time, which ends as this one does.
+    motion.cameraScale = motion.objectScale = 0.5;
+    const HostInstants made = compute();
+    const auto& found = made.layers.raster;
+    for (uint32_t i = 0; i < kInstants; ++i) {
+        const double seconds = 1.0 + ((i + 0.5) / kInstants - 1.0) * 0.5;
+        const vec3 there = apply(
+            found.motions.at(found.movers.at(1) * kInstants + i).instantFromRaster,
+            project(cornerAt(1.0), 1.0)
+        );
+        const Seen seen = project(cornerAt(seconds), seconds);
+        EXPECT_NEAR(there.x, seen.at.x, 2e-3) << i;
+        EXPECT_NEAR(there.y, seen.at.y, 2e-3) << i;
+    }
+    motion.cameraScale = 0.0;
+    EXPECT_TRUE(compute().layers.raster.isStatic);
+    EXPECT_NE(compute().layers.raster.movers.at(1), shader::kWorldMover);
+    motion.objectScale = 0.0;
+    EXPECT_EQ(compute().layers.raster.movers.at(1), shader::kWorldMover);
+}
+
+TEST_F(HostInstantsTest, AViewModelStaysWhereItIsInThePictureAndHasNoHistory) {
+    const std::vector<uint32_t> rows{2};
+    const HostRaster before = compute().raster;
+    motion.viewModelRows = rows;
+    const HostRaster last = compute().raster;
+    nextFrame();
+    const HostInstants made = compute(&last);
+    const LayerTables& raster = made.layers.raster;
+    for (uint32_t i = 0; i < kInstants; ++i) {
+        const auto& found = raster.motions.at(raster.movers.at(2) * kInstants + i);
+        const vec3 there = apply(found.instantFromRaster, {{30.0, 40.0}, 0.7});
+        EXPECT_NEAR(there.x, 30.0f, 1e-4f) << i;
+        EXPECT_NEAR(there.y, 40.0f, 1e-4f) << i;
+    }
+    EXPECT_EQ(made.layers.last->movers.at(2), shader::kNoMover);
+    EXPECT_EQ(compute(&before).layers.last->movers.at(2), shader::kNoMover) << "it was static";
+    motion.viewModelRows = {};
+    EXPECT_EQ(compute(&last).layers.last->movers.at(2), shader::kNoMover) << "it is static now";
+}
+
 TEST_F(HostInstantsTest, ALensDisplacesByItsPlacesWhatIsOutOfFocus) {
     motion.lens = {.radius = 0.02, .focusDistance = 4.0, .squeeze = 2.0};
     const HostInstants made = compute();
@@ -491,6 +535,13 @@ TEST_F(HostMotionCheck, EachBadMoverAndIdIsNamed) {
     refuse("movers[1].row is 1, as another mover's is", [&] {
         movers.push_back(movers[0]);
         motion.movers = movers;
+    });
+    const std::vector<uint32_t> one{1};
+    refuse("viewModelRows[0] is 1, as a mover's row is", [&] { motion.viewModelRows = one; });
+    const std::vector<uint32_t> beyond{0, kRows};
+    refuse("viewModelRows[1] is 4, rowCount 4", [&] { motion.viewModelRows = beyond; });
+    refuse("viewModelRows is null, its size is 1", [&] {
+        motion.viewModelRows = missing<uint32_t>(1);
     });
     refuse("movers is null, its size is 1", [&] { motion.movers = missing<HostMover>(1); });
     refuse("movers[0].worldFromObject holds 2, keys 3", [&] {
