@@ -624,14 +624,13 @@ void listGeneral(uvec2 block) {
     if (index % kListRow == 0u) atomicAdd(uGeneralArguments.groupsY, 1u);
 }
 
-/// Whether a tile that is not crowded has candidates that are told apart by depth. Where pixels are listed
-/// all tiles count as such.
+/// Whether a tile that is not crowded has candidates that are told apart by depth.
 bool isGeneral(uint tile) {
     if (!has(method, kHasGeneralTiles)) return false;
     uint ranges = uRaster[tile].ranges[kRangesMask];
     if (has(method, kHasLastLayer)) ranges |= uLast[tile].ranges[kRangesMask];
     if (has(method, kHasSecondLayer)) ranges |= uSecond[tile].ranges[kRangesMask];
-    return ranges != 0u || !kSortsUniform;
+    return ranges != 0u;
 }
 
 /// A block of a crowded tile, of which nothing is known but how far things go.

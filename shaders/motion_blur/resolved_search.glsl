@@ -296,8 +296,9 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     Probe surface = fetchSurfaceAt(kRasterLayer, at);
     bool isFarther =
         behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
-    if (!kIsGeneral || !isFarther || surface.key != row) return isFarther && surface.key != row;
+    if (!isFarther || surface.key != row) return isFarther;
     // Another surface of the entity is one that is seen elsewhere.
+    if (!kIsGeneral || (pixel.rasterRanges | pixel.secondRanges | pixel.lastRanges) == 0u) return false;
     vec3 seen = transformRows(
         motion.instantFromRaster, pictureSpace(at, surface.depth, pixel.perspective)
     );
@@ -319,10 +320,11 @@ void searchLayer(
         uint range = getRange(pixel, index, slot);
         slots &= slots - 1u;
         // The remaining candidates lie behind the sample. They are still needed for edges.
-        if (!kFindsEdges && best.isFound &&
-            (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
-            break;
+        bool isBehind = best.isFound && (candidate.key == kSkyKey ||
+                                         uintBitsToFloat(candidate.nearest) > best.depth);
+        if (!kFindsEdges && isBehind) break;
         Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false, kAnyRange);
+        Guess tried = guess;
         if (isDeformed(candidate.mover))
             searchPart(
                 index, candidate, timeOf(motions, instant),
@@ -332,8 +334,10 @@ void searchLayer(
             searchDepths(
                 index, candidate, range, idOf(candidate.key, range, slot),
                 motionAt(method, kHasLens, layer, candidate.mover, instant), pixel.perspective,
-                pixel.x, guess, found, doubt
+                pixel.x, tried, found, doubt
             );
+        if (isBehind) continue;
+        guess = tried;
         if (!found.isFound) continue;
         if (index != kRasterLayer && isRefuted(pixel, instant, found)) continue;
         keepNearer(best, found, pixel.x);

@@ -374,9 +374,7 @@ ResolvePassOutputs ResolvePass::add(
         outputs.picture = mBlocks.addResolve(
             graph, raster, outputs.blocks, search.blockSamples, outputs.picture, params
         );
-    // With pixels to list all blocks are general ones: that pipeline takes long to compile.
-    if (!mListsPixels || !search.isGeneral)
-        addResolve(graph, outputs, false, params);
+    addResolve(graph, outputs, false, params);
     if (search.isGeneral)
         addResolve(graph, outputs, true, params);
     return outputs;
