@@ -534,6 +534,34 @@ TEST_F(EmbeddedConventions, TwoCamerasAreTwoKeysForResolved) {
     );
 }
 
+TEST_F(EmbeddedConventions, ACameraThatJumpsFartherThanTheHostAllowsIsACut) {
+    HostInputs inputs = movingCameraInputs(); // by half a metre
+    inputs.convention.vectors = {};
+    motion_blur::HostCameras& cameras = inputs.convention.cameras;
+    const math::dmat4 moved = cameras.viewFromWorldBefore;
+    HostInputs cut = inputs;
+    cut.convention.scales.isCut = true;
+    for (const MotionBlurSettings& settings : {test::settingsOf("resolved", 5), test::gather()}) {
+        const image::Image blurred = draw(inputs, settings);
+        const image::Image sharp = draw(cut, settings);
+        ASSERT_FALSE(test::sameBits(blurred, sharp));
+        cameras.cutDistance = 0.6;
+        EXPECT_TRUE(test::sameBits(draw(inputs, settings), blurred));
+        cameras.cutDistance = 0.4;
+        EXPECT_TRUE(test::sameBits(draw(inputs, settings), sharp));
+        cameras.cutDistance = 0.0;
+    }
+    cameras.viewFromWorldBefore = glm::rotate(math::dmat4(1.0), 0.1, math::dvec3(0, 1, 0));
+    cameras.cutDegrees = 5.0;
+    EXPECT_TRUE(test::sameBits(draw(inputs), draw(cut)));
+    cameras.cutDegrees = 6.0;
+    EXPECT_FALSE(test::sameBits(draw(inputs), draw(cut)));
+    // About the direction of view, too.
+    cameras.viewFromWorldBefore = glm::rotate(math::dmat4(1.0), 0.2, math::dvec3(0, 0, 1));
+    EXPECT_TRUE(test::sameBits(draw(inputs), draw(cut)));
+    cameras.viewFromWorldBefore = moved;
+}
+
 TEST_F(EmbeddedConventions, ScalesOfTheMotionScaleTheKeysOfResolved) {
     HostInputs inputs = movingCameraInputs();
     inputs.convention.vectors = {};

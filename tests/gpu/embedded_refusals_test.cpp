@@ -412,6 +412,12 @@ TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
 }
 
 TEST_F(EmbeddedRefusals, ScalesThatAMethodCannotHonourAreNamed) {
+    inputs.convention.cameras.cutDistance = -1.0;
+    expectRefused(inputs, plain(), "cutDistance is -1, it must be 0 or more");
+    inputs.convention.cameras.cutDistance = 0.0;
+    inputs.convention.cameras.cutDegrees = double(kNan);
+    expectRefused(inputs, plain(), "cutDegrees is nan, it must be 0 or more");
+    inputs.convention.cameras.cutDegrees = 0.0;
     motion_blur::HostScales& scales = inputs.convention.scales;
     scales.camera = 0.5f;
     expectRefused(inputs, plain(), "cameraScale is 0.5, it must be 1: motionDepth is given");

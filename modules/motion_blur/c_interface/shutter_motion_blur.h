@@ -528,6 +528,13 @@ typedef struct ShutterBlurInputs {
      * `vectors` or `blurScale`. */
     const uint32_t* viewModelRows;
     uint32_t viewModelRowCount;
+
+    /* A camera that goes farther (in the unit of its matrices) or turns by more (degrees) between
+     * the two frames of `cameras` counts as isCut, for a host that is not told of cuts. 0 or more;
+     * 0: never.
+     */
+    double cutDistance;
+    double cutDegrees;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {

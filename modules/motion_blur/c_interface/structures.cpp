@@ -71,6 +71,8 @@ HostConvention convertConvention(const ShutterBlurInputs& given) {
     convention.depth.metresPerUnit = given.metresPerUnit;
     convention.depth.skyValue = given.skyValue;
     convention.cameras = convert(given.cameras);
+    convention.cameras.cutDistance = given.cutDistance;
+    convention.cameras.cutDegrees = given.cutDegrees;
     convention.scales.exposureShare = given.exposureShare;
     convention.scales.camera = given.cameraScale;
     convention.scales.object = given.objectScale;

@@ -166,12 +166,16 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
 ) {
     mHasLeftAPart = false;
     std::array<HostCameraKey, 2> keys;
-    std::optional<HostInputs> withKeys;
+    std::optional<HostInputs> changed;
+    if (isJump(given.convention.cameras))
+        changed.emplace(given).convention.scales.isCut = true;
     if (derivesKeys(given, wanted)) {
-        keys = deriveKeys(given);
-        withKeys.emplace(given).motion.keys = keys;
+        if (!changed)
+            changed.emplace(given);
+        keys = deriveKeys(*changed);
+        changed->motion.keys = keys;
     }
-    const HostInputs& inputs = withKeys ? *withKeys : given;
+    const HostInputs& inputs = changed ? *changed : given;
     const bool knowsMotions = !inputs.motion.keys.empty();
     const MotionBlurSettings settings = complete(wanted, knowsMotions);
     try {

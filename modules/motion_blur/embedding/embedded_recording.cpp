@@ -147,8 +147,8 @@ graph::ImageHandle EmbeddedMotionBlur::showInputs(
 std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     const HostInputs& inputs = frame.inputs;
     const HostLastFrame& last = inputs.last;
-    if (!last.color.image)
-        return std::nullopt;
+    if (!last.color.image || !last.motionDepth.image)
+        return std::nullopt; // checked by methods that look it up
     const VkExtent2D picture = pictureOf(inputs);
     LentRaster lent;
     lent.color = frame.import(*mDevice, "last colour", last.color, kLastColorRule);

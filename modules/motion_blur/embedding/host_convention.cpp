@@ -6,6 +6,7 @@
 #include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/render/scene_shared.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -128,6 +129,12 @@ core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
     if (!std::isfinite(cameras.jitterPx.x) || !std::isfinite(cameras.jitterPx.y) ||
         !std::isfinite(cameras.jitterPxBefore.x) || !std::isfinite(cameras.jitterPxBefore.y))
         return makeError("motion blur: cameras.jitterPx is not finite");
+    if (!(cameras.cutDistance >= 0.0))
+        return makeError(
+            "motion blur: cutDistance is {}, it must be 0 or more", cameras.cutDistance
+        );
+    if (!(cameras.cutDegrees >= 0.0))
+        return makeError("motion blur: cutDegrees is {}, it must be 0 or more", cameras.cutDegrees);
     if (!cameras.areGiven)
         return {};
     SHUTTER_TRY(checkView("viewFromWorld", cameras.viewFromWorld));
@@ -193,6 +200,26 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
             need
         );
     return {};
+}
+
+bool isJump(const HostCameras& cameras) {
+    if (!cameras.areGiven)
+        return false;
+    const dmat4 now = glm::inverse(cameras.viewFromWorld);
+    const dmat4 before = glm::inverse(cameras.viewFromWorldBefore);
+    if (cameras.cutDistance > 0.0 &&
+        glm::distance(glm::dvec3(now[3]), glm::dvec3(before[3])) > cameras.cutDistance)
+        return true;
+    if (!(cameras.cutDegrees > 0.0))
+        return false;
+    const double least = std::cos(glm::radians(std::min(cameras.cutDegrees, 180.0)));
+    for (const int axis : {1, 2}) { // up, and the direction of view
+        const glm::dvec3 a(now[axis]);
+        const glm::dvec3 b(before[axis]);
+        if (glm::dot(a, b) < least * glm::length(a) * glm::length(b))
+            return true;
+    }
+    return false;
 }
 
 HostConvention describeMotionDepth(const HostImage& motionDepth, const HostConvention& given) {

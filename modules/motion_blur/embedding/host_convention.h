@@ -38,6 +38,8 @@ struct HostCameras {
     bool aheadIsPlusZ = false;
     glm::dvec2 jitterPx{0.0};
     glm::dvec2 jitterPxBefore{0.0};
+    double cutDistance = 0.0; ///< ShutterBlurInputs::cutDistance
+    double cutDegrees = 0.0;
 };
 
 /// How much of the motion is blurred.
@@ -67,6 +69,10 @@ extern const HostImageRule kBlurScaleRule; ///< HostScales::perPixel
 [[nodiscard]] core::Status checkScales(const HostScales& scales, VkExtent2D picture);
 /// The same for all of a convention.
 [[nodiscard]] core::Status checkConvention(const HostConvention& convention, VkExtent2D picture);
+
+/// Whether the camera went or turned so far since the frame before that it is a cut. Matrices that
+/// are not given, or not finite, are none.
+[[nodiscard]] bool isJump(const HostCameras& cameras);
 
 /// A convention that describes HostInputs::motionDepth, with the cameras and the cut of `given`.
 [[nodiscard]] HostConvention

@@ -28,16 +28,20 @@ void checkListedMovers(const CheckedFrame& now, std::vector<Finding>& findings) 
     const CheckFacts& facts = now.facts;
     const std::vector<bool> seen = findSeenRows(now.totals, facts.rowCount);
     uint32_t inView = 0;
+    uint32_t inFrustum = 0;
     bool anySeen = false;
     const FineDepth depth(now, facts);
     for (const CheckFacts::Mover& mover : facts.movers) {
         if (mover.row >= seen.size())
             return; // more than are tracked
         anySeen = anySeen || seen[mover.row];
+        inFrustum += mover.isInView;
         // Hidden behind a wall, it is not counted.
         inView += mover.isInView && !seen[mover.row] && depth.isNear(mover.place, mover.metres);
     }
-    if (anySeen || inView == 0)
+    // Games list what they do not draw, the player's own body and what was culled: some such
+    // origins lie by chance on a surface that is seen.
+    if (anySeen || inView == 0 || 2 * inView < inFrustum)
         return;
     std::string rows;
     for (uint32_t row = 0, listed = 0; row < seen.size() && listed < 4; ++row)

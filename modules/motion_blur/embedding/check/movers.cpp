@@ -25,6 +25,9 @@ using math::dvec3;
 using math::dvec4;
 
 constexpr size_t kMinSamples = 8;
+/// From which a disagreement without a cause is reported: a vertex-animated model may be all that
+/// is seen.
+constexpr size_t kMinForVerdict = 24;
 constexpr double kMoverTolerancePx = 0.5;
 constexpr double kMoverToleranceShare =
     0.25; ///< of the expected motion: paths are not straight, nor even
@@ -348,6 +351,8 @@ class MoverCheck {
     }
 
     [[nodiscard]] std::optional<std::string> describeRest(const Matches& declared) const {
+        if (declared.size() < kMinForVerdict)
+            return std::nullopt;
         const auto areOff = [](const Matches& matches, size_t tenths) {
             return 10 * count(matches, Match::Other) >= tenths * matches.size();
         };
