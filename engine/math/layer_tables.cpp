@@ -18,10 +18,11 @@ dmat4 withoutTranslation(const dmat4& matrix) {
     return result;
 }
 
-/// Less than this is what rounding makes of none, pixels * metres or pixels / metre.
+/// A parallax below this is a rounding error, pixels * metres or pixels / metre.
 constexpr float kLeastParallax = 1.0e-6f;
 
-/// Of what one affine map moves, pixels * metres or pixels / metre.
+/// Greatest parallax in the picture's corners under one affine map, pixels * metres or pixels /
+/// metre.
 float findParallax(const shader::InstantMotion& motion, const vec2& sizePx, bool isPerspective) {
     const auto& rows = motion.instantFromRaster;
     if (rows[2] == vec4(0.0f))

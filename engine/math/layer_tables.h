@@ -54,9 +54,9 @@ pictureFromView(const dmat4& clipFromView, const uvec2& sizePx, const dvec2& jit
 /// singular or exceeds the range of single precision.
 [[nodiscard]] shader::InstantMotion makeInstantMotion(const dmat4& instantFromRaster);
 
-/// LayerMotion::parallaxes by row of a layer's entity table: of each mover the greatest in the
-/// corners of the picture, at the first, the middle and the last instant; with a lens, and by its
-/// places besides. \param layer of the exposure's
+/// Computes LayerMotion::parallaxes, one per row of the layer's entity table and one for the sky:
+/// the greatest of each mover in the picture's corners at the first, middle and last instant, plus
+/// the reach of the lens where there is one. \param layer one of the exposure's
 [[nodiscard]] std::vector<float>
 findParallaxes(const LayerTables& layer, const InstantLayers& exposure, const uvec2& sizePx);
 

@@ -71,7 +71,7 @@ struct InstantMotions {
     /// A tile may see more entities that move than its list holds (mayCrowdTiles()).
     bool mayCrowd = true;
     /// An entity may show several surfaces that move differently, one behind the other
-    /// (mayHideThemselves()).
+    /// (WrittenLayers::mayHide).
     bool mayHide = true;
 
     /// Tiles may need more than the usual search: they are crowded, or have such an entity.

@@ -43,9 +43,9 @@ layout(binding = 22) uniform usampler2D uEdgeSurface; // of this frame's raster;
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;
 
-/// Whether tiles may have candidates that are told apart by depth.
+/// Whether several candidates of a tile may belong to one entity, distinguished by depth.
 layout(constant_id = 3) const bool kIsGeneral = false;
-/// Whether they may be crowded; with kIsGeneral.
+/// Whether tiles may be crowded; implies kIsGeneral.
 layout(constant_id = 7) const bool kHasCrowds = false;
 
 /// Whether something deforms in any of the layers.

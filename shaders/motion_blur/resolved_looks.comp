@@ -624,7 +624,7 @@ void listGeneral(uvec2 block) {
     if (index % kListRow == 0u) atomicAdd(uGeneralArguments.groupsY, 1u);
 }
 
-/// Whether a tile that is not crowded has candidates that are told apart by depth.
+/// Whether several candidates of the tile, which is not crowded, belong to one entity.
 bool isGeneral(uint tile) {
     if (!has(method, kHasGeneralTiles)) return false;
     uint ranges = uRaster[tile].ranges[kRangesMask];

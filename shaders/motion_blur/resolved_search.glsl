@@ -92,7 +92,7 @@ struct Guess {
     float along;
 };
 
-/// Of a candidate among those of a tile; of an entity that is one candidate, its key.
+/// Identifies a candidate within its tile: the key, and the slot where an entity has several candidates.
 uint idOf(uint key, uint range, uint slot) { return range == kAnyRange ? key : key | (slot + 1u) << kKeyBitCount; }
 
 struct Guesses {

@@ -29,7 +29,7 @@ shared uint sRanges[kCandidatesPerTile][kThreads];
 
 /// Instants at which a surface's depths are looked at, at most.
 const uint kDepthInstants = 8u;
-/// Beyond a surface's depths, bins.
+/// By which a surface's depths are widened on both sides, bins.
 const float kDepthMargin = 0.05f;
 
 Candidate readCandidate(uint layer, uint tile, uint slot) {
@@ -83,7 +83,7 @@ uvec2 rankOf(uint key, uint nearest) { return uvec2(key == kSkyKey ? kNoKey : ne
 
 bool isBefore(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Moves the candidate in a slot before those of the slots below that lie behind it.
+/// Moves a slot's candidate before those in lower slots that lie behind it.
 void sink(uint slot, uint thread) {
     uint key = sKeys[slot][thread];
     uint nearest = sNearest[slot][thread];
@@ -122,10 +122,11 @@ uint readCandidates(uint layer, uint tile, uint thread) {
     return end;
 }
 
-/// Between which depths the tile sees at any instant what lies between two depths of the layer's raster.
-/// At a place of the picture, depth at an instant is a linear function of that in the raster. Places of a
-/// lens hardly change it, and little lies beyond the instants looked at: kDepthMargin holds that.
-/// \param inRaster least and greatest depth \param depths of the entity that the surface belongs to, in the tile at any instant; a bound
+/// Bounds the depth at which the tile sees, at any instant, a surface between two depths of the layer's
+/// raster. At a place of the picture, depth at an instant is a linear function of depth in the raster.
+/// kDepthMargin covers what a lens's places and the instants in between add.
+/// \param inRaster least and greatest depth
+/// \param depths bounds of the whole entity in the tile at any instant
 vec2 boundSurface(
     LayerMotion layer, uint mover, vec2 origin, vec2 inRaster, vec2 depths, bool perspective
 ) {

@@ -416,8 +416,8 @@ typedef struct ShutterBlurInputs {
     float exposureShare;
     /* Scale of the blur by camera motion and by object motion, [0, 16]. With keys the camera and
      * the movers go their ways faster or slower from rasterTime on, as far as their keys reach.
-     * Must be 1 with motionDepth (but for "rosado2007"), with deformedMotion where that counts, and
-     * for "adaptive". */
+     * Must be 1 with motionDepth (except for "rosado2007"), with deformedMotion where that counts,
+     * and for "adaptive". */
     float cameraScale;
     float objectScale;
     /* Displayed frames per rendered frame, with frame generation, [1, 16]: the exposure, and so the

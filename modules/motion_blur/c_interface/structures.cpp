@@ -99,7 +99,7 @@ core::Status checkArrays(const ShutterBlurInputs& given) {
     );
 }
 
-/// Of a mover's matrices; without keys they are those of the frame before and of this one.
+/// Number of matrices of each mover: one per key, or without keys those of two frames.
 uint32_t countMatrices(const ShutterBlurInputs& given) {
     return given.keyCount > 0 ? given.keyCount : 2;
 }
