@@ -163,6 +163,7 @@ uint32_t texelBytes(VkFormat format) {
     switch (format) {
     case VK_FORMAT_R8_UNORM:
     case VK_FORMAT_R8_UINT:
+    case VK_FORMAT_S8_UINT:
         return 1;
     case VK_FORMAT_R16_UINT:
     case VK_FORMAT_R16_SFLOAT:
@@ -171,6 +172,7 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_B8G8R8A8_SRGB:
     case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
     case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
     case VK_FORMAT_R16G16_SFLOAT:
@@ -181,6 +183,7 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R16G16B16A16_UNORM:
     case VK_FORMAT_R32G32_SFLOAT:
     case VK_FORMAT_R32G32_UINT:
         return 8;
@@ -224,6 +227,8 @@ std::string nameFormat(VkFormat format) {
         SHUTTER_FORMAT(R16G16B16A16_UNORM)
         SHUTTER_FORMAT(D16_UNORM)
         SHUTTER_FORMAT(X8_D24_UNORM_PACK32)
+        SHUTTER_FORMAT(S8_UINT)
+        SHUTTER_FORMAT(D16_UNORM_S8_UINT)
         SHUTTER_FORMAT(D24_UNORM_S8_UINT)
         SHUTTER_FORMAT(D32_SFLOAT_S8_UINT)
         SHUTTER_FORMAT(D32_SFLOAT)
@@ -239,6 +244,9 @@ VkImageAspectFlags aspectOf(VkFormat format) {
     case VK_FORMAT_X8_D24_UNORM_PACK32:
     case VK_FORMAT_D32_SFLOAT:
         return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_S8_UINT:
+        return VK_IMAGE_ASPECT_STENCIL_BIT;
+    case VK_FORMAT_D16_UNORM_S8_UINT:
     case VK_FORMAT_D24_UNORM_S8_UINT:
     case VK_FORMAT_D32_SFLOAT_S8_UINT:
         return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
@@ -306,6 +314,7 @@ Image& Image::operator=(Image&& other) noexcept {
     mDesc = other.mDesc;
     mImage = std::exchange(other.mImage, VK_NULL_HANDLE);
     mView = std::exchange(other.mView, VK_NULL_HANDLE);
+    mStencilView = std::exchange(other.mStencilView, VK_NULL_HANDLE);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
     mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
     mAdopted = other.mAdopted;
@@ -333,10 +342,16 @@ void Image::createView() {
     info.image = mImage;
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     info.format = mDesc.format;
-    // Shaders sample one aspect, and nothing here reads a stencil.
-    const VkImageAspectFlags aspect = aspectOf(mDesc.format) & ~VK_IMAGE_ASPECT_STENCIL_BIT;
-    info.subresourceRange = {aspect, 0, mDesc.mipLevels, mDesc.layer, 1};
+    // Shaders sample one aspect of an image.
+    constexpr VkImageAspectFlags kDepth = VK_IMAGE_ASPECT_DEPTH_BIT;
+    constexpr VkImageAspectFlags kBoth = kDepth | VK_IMAGE_ASPECT_STENCIL_BIT;
+    const VkImageAspectFlags aspect = aspectOf(mDesc.format);
+    info.subresourceRange = {aspect == kBoth ? kDepth : aspect, 0, mDesc.mipLevels, mDesc.layer, 1};
     require(vkCreateImageView(mDevice->handle(), &info, nullptr, &mView), "creating a view");
+    if (aspect != kBoth)
+        return;
+    info.subresourceRange.aspectMask = VK_IMAGE_ASPECT_STENCIL_BIT;
+    require(vkCreateImageView(mDevice->handle(), &info, nullptr, &mStencilView), "creating a view");
 }
 
 void Image::release() {
@@ -345,9 +360,11 @@ void Image::release() {
     mDevice->retire([device = mDevice,
                      image = mAdopted ? VK_NULL_HANDLE : mImage,
                      view = mView,
+                     stencilView = mStencilView,
                      memory = mMemory,
                      bytes = mMemoryBytes] {
         vkDestroyImageView(device->handle(), view, nullptr);
+        vkDestroyImageView(device->handle(), stencilView, nullptr);
         if (!image)
             return;
         vkDestroyImage(device->handle(), image, nullptr);

@@ -86,8 +86,8 @@ struct ImageDesc {
 [[nodiscard]] std::string nameFormat(VkFormat format);
 [[nodiscard]] VkImageAspectFlags aspectOf(VkFormat format);
 
-/// A 2D image and its view. Owns its memory unless it was bound to memory of another owner, and the
-/// image unless it was adopted.
+/// A 2D image and its views. Owns its memory unless it was bound to memory of another owner, and
+/// the image unless it was adopted.
 class Image {
   public:
     Image() = default;
@@ -97,7 +97,7 @@ class Image {
     [[nodiscard]] static Image
     createUnbound(Device& device, std::string name, const ImageDesc& desc);
     /// Wraps an image of another owner, which must outlive this object and its last use; only the
-    /// view is owned.
+    /// views are owned.
     [[nodiscard]] static Image
     adopt(Device& device, std::string name, VkImage image, const ImageDesc& desc);
     ~Image();
@@ -110,7 +110,11 @@ class Image {
 
     [[nodiscard]] VkImage handle() const { return mImage; }
 
+    /// Of the depth where there is one.
     [[nodiscard]] VkImageView view() const { return mView; }
+
+    /// Null: the format has no stencil beside its depth.
+    [[nodiscard]] VkImageView stencilView() const { return mStencilView; }
 
     [[nodiscard]] const ImageDesc& desc() const { return mDesc; }
 
@@ -125,6 +129,7 @@ class Image {
     ImageDesc mDesc;
     VkImage mImage = VK_NULL_HANDLE;
     VkImageView mView = VK_NULL_HANDLE;
+    VkImageView mStencilView = VK_NULL_HANDLE;
     VkDeviceMemory mMemory = VK_NULL_HANDLE; ///< null: bound to memory of another owner
     VkDeviceSize mMemoryBytes = 0;
     bool mAdopted = false;

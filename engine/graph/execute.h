@@ -15,7 +15,9 @@ class PassResources {
 
     [[nodiscard]] const gpu::Image& image(ImageHandle handle) const;
 
-    [[nodiscard]] VkImageView view(ImageHandle handle) const { return image(handle).view(); }
+    [[nodiscard]] VkImageView view(ImageHandle handle) const {
+        return handle.isStencil ? image(handle).stencilView() : image(handle).view();
+    }
 
     [[nodiscard]] VkBuffer buffer(BufferHandle handle) const;
     /// Transient buffers only.

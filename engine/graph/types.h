@@ -14,12 +14,19 @@ namespace shutter::graph {
 struct ImageHandle {
     uint32_t resource = UINT32_MAX;
     uint32_t version = 0;
-    uint32_t graph = 0; ///< which graph made it, so that last frame's handles are caught
+    uint32_t graph = 0;     ///< which graph made it, so that last frame's handles are caught
+    bool isStencil = false; ///< shaders see the stencil beside the depth (stencilOf())
 
     [[nodiscard]] bool isValid() const { return resource != UINT32_MAX; }
 
     bool operator==(const ImageHandle&) const = default;
 };
+
+/// The same image, of which passes sample the stencil.
+[[nodiscard]] inline ImageHandle stencilOf(ImageHandle image) {
+    image.isStencil = true;
+    return image;
+}
 
 /// The same for a buffer (or an acceleration structure, which is ordered like one).
 struct BufferHandle {

@@ -78,12 +78,20 @@ class LayerBuilder {
     /// \param worldFromObjectAt (size_t instant) -> dmat4, at each instant
     template <class At>
     void addMover(size_t row, const dmat4& worldFromObject, const At& worldFromObjectAt) {
+        addPicture(row, mLayerPicture * worldFromObject, [&](size_t i) {
+            return mPictures[i] * worldFromObjectAt(i);
+        });
+    }
+
+    /// The same for a row with a projection of its own.
+    /// \param pictureFromObject when the layer was drawn
+    /// \param pictureFromObjectAt (size_t instant) -> dmat4, at each instant
+    template <class At>
+    void addPicture(size_t row, const dmat4& pictureFromObject, const At& pictureFromObjectAt) {
         mTables.movers[row] = static_cast<uint32_t>(mTables.motions.size() / mPictures.size());
-        const dmat4 objectFromLayer = glm::inverse(mLayerPicture * worldFromObject);
+        const dmat4 objectFromLayer = glm::inverse(pictureFromObject);
         for (size_t i = 0; i < mPictures.size(); ++i)
-            mTables.motions.push_back(
-                makeInstantMotion(mPictures[i] * worldFromObjectAt(i) * objectFromLayer)
-            );
+            mTables.motions.push_back(makeInstantMotion(pictureFromObjectAt(i) * objectFromLayer));
     }
 
     /// A row that has the same place in the picture at every instant, whatever the camera does.
