@@ -76,6 +76,7 @@ motion_blur::HostImage UploadedImage::describe() const {
     image.extent = {mImage.desc().width, mImage.desc().height};
     image.area = mArea;
     image.usage = mImage.desc().usage;
+    image.samples = VK_SAMPLE_COUNT_1_BIT;
     return image;
 }
 

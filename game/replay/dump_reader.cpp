@@ -111,7 +111,21 @@ motion_blur::HostCameras readCameras(const JsonNode& node) {
     return cameras;
 }
 
-motion_blur::HostConvention readConvention(const JsonNode& node) {
+/// The values are checked by the recording, as a host's are.
+void readViewModel(
+    const JsonNode& node, motion_blur::HostViewModel& model, std::vector<glm::dmat4>& viewFromObject
+) {
+    const JsonObject object =
+        node.readObject({"depthMin", "depthMax", "clipFromView", "viewFromObject"});
+    model.depthMin = float(object.require("depthMin").readNumber(kFloats));
+    model.depthMax = float(object.require("depthMax").readNumber(kFloats));
+    model.clipFromView = readMatrix(object.require("clipFromView"));
+    for (const JsonNode& matrix : object.require("viewFromObject").readArray())
+        viewFromObject.push_back(readMatrix(matrix));
+}
+
+motion_blur::HostConvention
+readConvention(const JsonNode& node, std::vector<glm::dmat4>& viewFromObject) {
     const JsonObject object = node.readObject(
         {"pixelsPerUnit",
          "haveCamera",
@@ -124,7 +138,8 @@ motion_blur::HostConvention readConvention(const JsonNode& node) {
          "cameraScale",
          "objectScale",
          "displayedPerRendered",
-         "isCut"}
+         "isCut",
+         "viewModel"}
     );
     const auto readFloat = [&](const char* field) {
         return float(object.require(field).readNumber(kFloats));
@@ -144,6 +159,8 @@ motion_blur::HostConvention readConvention(const JsonNode& node) {
     convention.scales.object = readFloat("objectScale");
     convention.scales.displayedPerRendered = readFloat("displayedPerRendered");
     convention.scales.isCut = object.require("isCut").readBoolean();
+    if (const auto model = object.find("viewModel"); model && !model->isNull())
+        readViewModel(*model, convention.viewModel, viewFromObject);
     return convention;
 }
 
@@ -377,7 +394,7 @@ DumpFrame readFrame(const JsonNode& node) {
     const JsonNode convention = root.require("convention");
     frame.hasConvention = !convention.isNull();
     if (frame.hasConvention)
-        frame.convention = readConvention(convention);
+        frame.convention = readConvention(convention, frame.viewFromObject);
     const JsonNode motion = root.require("motion");
     if (!motion.isNull())
         readMotion(motion, frame);

@@ -57,6 +57,7 @@ struct DumpFrame {
     std::vector<std::vector<glm::dmat4>> moverMatrices; ///< one each
     std::vector<uint64_t> rowIds;
     std::vector<uint32_t> viewModelRows;
+    std::vector<glm::dmat4> viewFromObject; ///< of convention.viewModel
     std::vector<double> focusDistances;
     DumpedReveal reveal = DumpedReveal::None;
     DumpedResponse response = DumpedResponse::Box;

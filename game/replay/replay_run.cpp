@@ -204,6 +204,7 @@ class Player {
         inputs.motion.movers = mMovers;
         inputs.motion.rowIds = frame.rowIds;
         inputs.motion.viewModelRows = frame.viewModelRows;
+        inputs.convention.viewModel.viewFromObject = frame.viewFromObject;
         inputs.motion.lens.focusDistances = frame.focusDistances;
         if (frame.reveal == DumpedReveal::Own)
             inputs.reveal = mReveal.answer(frame);
@@ -274,6 +275,8 @@ class Player {
             output.handle(),
             {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
             kCopied};
+        inputs.output.usage = output.desc().usage;
+        inputs.output.samples = VK_SAMPLE_COUNT_1_BIT;
         gpu::Frame commands(mDevice);
         commands.begin();
         for (const UploadedImage& upload : mUploads)

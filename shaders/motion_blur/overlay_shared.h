@@ -14,7 +14,7 @@ SHUTTER_CONST uint kPanelMotion = 0u;  // the motion that is blurred
 SHUTTER_CONST uint kPanelCamera = 1u;  // the camera's part of it
 SHUTTER_CONST uint kPanelObjects = 2u; // the remainder: object motion
 SHUTTER_CONST uint kPanelDepth = 3u;   // near is bright
-SHUTTER_CONST uint kPanelWorld = 4u;   // cells of a metre that are static in the world
+SHUTTER_CONST uint kPanelWorld = 4u;   // cells that are static in the world, of a metre or so
 SHUTTER_CONST uint kPanelIds = 5u;     // a colour for each entity
 SHUTTER_CONST uint kPanelNormal = 6u;
 SHUTTER_CONST uint kPanelJitter = 7u; // a dot where the frame's samples lie in their pixels
@@ -22,8 +22,8 @@ SHUTTER_CONST uint kPanelCount = 8u;
 
 struct OverlayTable {
     PrepareTable prepare; // of which the cameras and scales count
-    /// Rows of the affine map from picture space (instant_motion_shared.h) to the world, whose
-    /// origin is moved by a multiple of two metres.
+    /// Rows of the affine map from picture space (instant_motion_shared.h) to the world in cells,
+    /// whose origin is moved by a multiple of two.
     vec4 worldFromPicture[3];
     vec2 jitterPx;
     uint panels; // bit i: panel i is drawn
@@ -32,7 +32,7 @@ struct OverlayTable {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::OverlayTable) == 204);
+static_assert(sizeof(shutter::shader::OverlayTable) == 228);
 #endif
 
 #endif

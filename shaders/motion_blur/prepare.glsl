@@ -20,13 +20,19 @@ SHUTTER_INLINE vec2 placeInArea(PrepareArea area, vec2 place) {
     return area.origin + place * area.perPixel;
 }
 
+/// Whether the pixel is the view model's. \param value of depth, as it is stored
+SHUTTER_INLINE bool isViewModel(PrepareTable table, float value) {
+    return prepareHas(table, kPrepareHasViewModel) && value != table.skyValue &&
+           value >= table.viewModelRange.x && value <= table.viewModelRange.y;
+}
+
 /// Metres along the view, (0, kSkyDepth]; the latter for the sky and for invalid depths.
 SHUTTER_INLINE float metresOfDepth(PrepareTable table, float value) {
     if (!isFinite(value) || value == table.skyValue)
         return kSkyDepth;
     if (prepareHas(table, kPrepareSkyBeyond) && value > table.skyValue)
         return kSkyDepth;
-    vec4 k = table.depthFromValue;
+    vec4 k = isViewModel(table, value) ? table.viewModelFromValue : table.depthFromValue;
     float metres = (k.x + k.y * value) / (k.z + k.w * value);
     return isFinite(metres) && metres > 0.0f ? min(metres, kSkyDepth) : kSkyDepth;
 }
@@ -67,14 +73,16 @@ SHUTTER_INLINE vec2 storableMotion(vec2 motion) {
 
 /// Displacement over the exposure, pixels right and down.
 /// \param vector as it is in the image
+/// \param isOwn the view model's, which no camera moves
 /// \param blurScale of the pixel, [0, 1]
-SHUTTER_INLINE vec2
-preparedMotion(PrepareTable table, vec2 place, vec2 vector, float metres, float blurScale) {
+SHUTTER_INLINE vec2 preparedMotion(
+    PrepareTable table, vec2 place, vec2 vector, float metres, bool isOwn, float blurScale
+) {
     vec2 own = vector * table.pixelsPerUnit - table.jitterPx;
     // Scales of 0 must not meet infinity.
     if (!isFinite(own.x) || !isFinite(own.y))
         own = vec2(0.0f);
-    if (!prepareHas(table, kPrepareHasCameras))
+    if (isOwn || !prepareHas(table, kPrepareHasCameras))
         return storableMotion(own * (table.objectScale * blurScale));
     vec2 camera = motionOfCamera(table, place, metres);
     if (!isFinite(camera.x) || !isFinite(camera.y))

@@ -37,6 +37,7 @@ void main() {
     if (prepareHas(table, kPrepareHasBlurScale))
         blurScale = saturate(textureLod(uBlurScale, placeInArea(table.blurScale, place), 0.0f).x);
     float metres = metresOfDepth(table, value);
-    vec2 motion = preparedMotion(table, place, vector, metres, blurScale);
+    bool isOwn = isViewModel(table, value);
+    vec2 motion = preparedMotion(table, place, vector, metres, isOwn, blurScale);
     imageStore(uMotionDepth, ivec2(pixel), vec4(motion, metres, 0.0f));
 }

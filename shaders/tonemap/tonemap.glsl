@@ -4,6 +4,7 @@
 #define SHUTTER_TONEMAP_GLSL
 
 #include "common/numeric.glsl"
+#include "common/transfer.glsl"
 
 SHUTTER_SHADER_BEGIN
 
@@ -25,8 +26,7 @@ SHUTTER_INLINE vec3 toneMapNeutral(vec3 color) {
 }
 
 SHUTTER_INLINE float encodeSrgb(float x) {
-    float c = saturate(x);
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * pow(c, 1.0f / 2.4f) - 0.055f;
+    return encodeSrgbCurve(saturate(x));
 }
 
 SHUTTER_INLINE vec3 encodeSrgb3(vec3 c) {

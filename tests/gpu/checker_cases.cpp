@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace shutter::test {
 
@@ -220,6 +221,22 @@ Change withoutVectors(Change change) {
         dropDeforming(g);
         change(g);
     });
+}
+
+/// Draws a weapon before the world's lower right, which follows the camera, with a row of its own.
+void drawWeapon(Given& g, std::optional<float> stored) {
+    constexpr float kMetres = 0.4f;
+    for (size_t i = 0; i < kCheckedPixels; ++i) {
+        const size_t x = i % kCheckedWidth;
+        const size_t y = i / kCheckedWidth;
+        if (3 * x < 2 * kCheckedWidth || 2 * y < kCheckedHeight)
+            continue;
+        g.metres[i] = kMetres;
+        g.depth[i] = stored.value_or(storeDepth(g.cameras.clipFromView, kMetres));
+        g.motion[i] = {};
+        g.ids[i] = g.rowCount;
+    }
+    ++g.rowCount;
 }
 
 /// Other ids in each frame.
@@ -473,6 +490,12 @@ void listAgainstTheLastFrame(Cases& add) {
             g.listed.clear();
             changeIds(g);
         }));
+    add("a weapon that follows the camera, without vectors",
+        "stays where it is in the picture",
+        withoutVectors([](Given& g) { drawWeapon(g, {}); }));
+    add("a weapon in a range of depth that the camera does not have",
+        "is of no surface before the camera",
+        withoutVectors([](Given& g) { drawWeapon(g, -0.5f); }));
     const char* const either =
         "cameras.clipFromView ha"; // s another field of view; d an aspect ratio of
     add("another field of view",
@@ -610,6 +633,14 @@ void listRightMotion(Cases& add) {
     add("movers by exact keys", resolved(keyed({0.0, 1.0})));
     add("movers by exact keys, without vectors", keyedWithoutVectors({0.0, 0.5, 1.0}));
     add("movers in frames of uneven length", resolved(keyed({}))).isUneven = true;
+    add("a weapon that follows the camera, declared by its depth", resolved([](Given& g) {
+            g.hasVectors = g.hasIds = false;
+            g.listed.clear();
+            const float least = storeDepth(g.cameras.clipFromView, 0.5f);
+            drawWeapon(g, {});
+            g.inputs.convention.viewModel.depthMin = least;
+            g.inputs.convention.viewModel.depthMax = 1.0f;
+        }));
     add("one world, without ids, vectors and movers", resolved([](Given& g) {
             g.hasVectors = g.hasIds = false;
             g.listed.clear();

@@ -7,14 +7,20 @@
 #include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -191,6 +197,23 @@ class EmbeddedConventions : public test::EmbeddedTest {
         std::vector<T> texels(count);
         std::memcpy(texels.data(), copy.mapped(), count * sizeof(T));
         return texels;
+    }
+
+    template <class T>
+    std::vector<std::byte> blurIntoBytes(const HostTexels& target, const HostInputs& inputs) {
+        const std::vector<T> texels = blurInto<T>(target, inputs);
+        const auto bytes = test::bytesOf(texels);
+        return {bytes.begin(), bytes.end()};
+    }
+
+    core::Status refuse(HostInputs inputs, const MotionBlurSettings& settings) {
+        const test::Picture output(device(), {inputs.width, inputs.height});
+        inputs.output = output.output();
+        core::Status done;
+        submit([&](VkCommandBuffer commands) {
+            done = mBlur->record(commands, 0, inputs, settings);
+        });
+        return done;
     }
 
     /// The picture's part of `target` contains it, the rest is unchanged.
@@ -396,6 +419,184 @@ TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
         }
     }
     EXPECT_EQ(wrong, 0u);
+}
+
+/// Colours of four channels as an image stores them.
+struct StoredColors {
+    VkFormat format;
+    double most;                                     ///< of red, green and blue
+    std::function<uint64_t(const glm::dvec4&)> pack; ///< of whole numbers
+    std::function<glm::dvec3(uint64_t)> unpack;
+    size_t bytes;
+};
+
+std::vector<StoredColors> listStoredColors() {
+    const auto shift = [](VkFormat format, int bits, int red, int blue) {
+        const double most = std::pow(2.0, bits) - 1.0;
+        const uint64_t mask = (uint64_t{1} << bits) - 1;
+        return StoredColors{
+            format,
+            most,
+            [=](const glm::dvec4& c) {
+                return uint64_t(c.r) << red | uint64_t(c.g) << bits | uint64_t(c.b) << blue |
+                       uint64_t(c.a) << 3 * bits;
+            },
+            [=](uint64_t word) {
+                return glm::dvec3(word >> red & mask, word >> bits & mask, word >> blue & mask);
+            },
+            bits == 16 ? 8u : 4u};
+    };
+    return {
+        shift(VK_FORMAT_R8G8B8A8_UNORM, 8, 0, 16),
+        shift(VK_FORMAT_B8G8R8A8_UNORM, 8, 16, 0),
+        shift(VK_FORMAT_A2B10G10R10_UNORM_PACK32, 10, 0, 20),
+        shift(VK_FORMAT_A2R10G10B10_UNORM_PACK32, 10, 20, 0),
+        shift(VK_FORMAT_R16G16B16A16_UNORM, 16, 0, 32),
+        shift(VK_FORMAT_R8G8B8A8_SRGB, 8, 0, 16),
+        shift(VK_FORMAT_B8G8R8A8_SRGB, 8, 16, 0)};
+}
+
+/// Each format by each curve, in place: what is static gets its own bits back, and what moves is
+/// the mean of light.
+TEST_F(EmbeddedConventions, StoredColoursAreBlurredAsLight) {
+    std::mt19937 random(3);
+    for (const StoredColors& stored : listStoredColors()) {
+        if (!canUse(stored.format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+            continue;
+        const bool isSrgb =
+            stored.format == VK_FORMAT_R8G8B8A8_SRGB || stored.format == VK_FORMAT_B8G8R8A8_SRGB;
+        for (const motion_blur::HostTransfer transfer :
+             {motion_blur::HostTransfer{},
+              {shader::kTransferSrgb},
+              {shader::kTransferPower, 2.2, 2.0}}) {
+            SCOPED_TRACE(fmt::format("{} by {}", gpu::nameFormat(stored.format), transfer.curve));
+            const shader::Transfer curve = isSrgb
+                                               ? shader::Transfer{shader::kTransferSrgb, 1.0f, 1.0f}
+                                               : motion_blur::decodingOf(transfer, stored.format);
+            // What half floats hold of 16 bits is 11.
+            const double step = stored.most > 1023.0 ? 64.0 : 1.0;
+            std::vector<uint64_t> words;
+            std::vector<uint64_t> light;
+            for (size_t i = 0; i < kConventionPixels; ++i) {
+                glm::dvec4 value(0.0, 0.0, 0.0, 1.0);
+                for (int channel = 0; channel < 3; ++channel)
+                    value[channel] = double(random() % uint32_t(stored.most / step + 1.0)) * step;
+                words.push_back(stored.pack(value));
+                light.push_back(
+                    packHalf({shader::lightOfColor(curve, glm::vec3(value / stored.most)), 1.0f})
+                );
+            }
+            HostInputs linear = ownInputs();
+            linear.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, light);
+            const image::Image own = draw(linear);
+            std::vector<std::byte> bytes(words.size() * stored.bytes);
+            for (size_t i = 0; i < words.size(); ++i)
+                std::memcpy(&bytes[i * stored.bytes], &words[i], stored.bytes);
+            const HostTexels& texels = makeTexels(stored.format, kConventionExtent, bytes);
+            HostInputs inputs = linear;
+            inputs.color = texels.describe();
+            inputs.transfer = transfer;
+            const std::vector<std::byte> made = stored.bytes == 8
+                                                    ? blurIntoBytes<uint64_t>(texels, inputs)
+                                                    : blurIntoBytes<uint32_t>(texels, inputs);
+            size_t changed = 0;
+            double worst = 0.0;
+            for (size_t i = 0; i < words.size(); ++i) {
+                uint64_t word = 0;
+                std::memcpy(&word, &made[i * stored.bytes], stored.bytes);
+                changed += word != words[i];
+                for (int channel = 0; channel < 3; ++channel) {
+                    const double wanted =
+                        shader::valueOfLight(curve, own.pixels[4 * i + channel]) * stored.most;
+                    worst = std::max(worst, std::abs(stored.unpack(word)[channel] - wanted));
+                }
+            }
+            EXPECT_GT(changed, 1000u) << "nothing was blurred";
+            EXPECT_LT(worst, 0.51 + stored.most / 512.0) << "beyond roundings of half floats";
+            inputs.isOff = true;
+            inputs.blended = make(
+                VK_FORMAT_R16G16B16A16_SFLOAT, std::vector<uint64_t>(kConventionPixels, 0)
+            ); // which adds nothing, and so reads and writes all pixels
+            const std::vector<std::byte> same = stored.bytes == 8
+                                                    ? blurIntoBytes<uint64_t>(texels, inputs)
+                                                    : blurIntoBytes<uint32_t>(texels, inputs);
+            for (size_t i = 0; step == 1.0 && i < words.size(); ++i) {
+                uint64_t word = 0;
+                std::memcpy(&word, &same[i * stored.bytes], stored.bytes);
+                ASSERT_EQ(stored.unpack(word), stored.unpack(words[i])) << i;
+            }
+        }
+    }
+}
+
+/// A part of a larger image gets the picture, and what lies around stays.
+TEST_F(EmbeddedConventions, APartOfAnImageOfBytesIsWrittenAlone) {
+    const VkExtent2D whole{kConventionWidth + 24, kConventionHeight + 16};
+    const VkRect2D area{{8, 6}, kConventionExtent};
+    const auto inner = convert<uint32_t>(drawn.color, [](const glm::vec4& value) {
+        return glm::packUnorm4x8(glm::clamp(value, 0.0f, 1.0f));
+    });
+    const std::vector<uint32_t> was = surround<uint32_t>(inner, 0x01020304u, whole, area.offset);
+    HostInputs inputs = ownInputs();
+    inputs.transfer.curve = shader::kTransferSrgb;
+    const HostTexels& alone = makeTexels(VK_FORMAT_B8G8R8A8_UNORM, kConventionExtent, inner);
+    inputs.color = alone.describe();
+    const auto own = blurInto<uint32_t>(alone, inputs);
+    const HostTexels& part = makeTexels(VK_FORMAT_B8G8R8A8_UNORM, whole, was);
+    inputs.color = part.describe(area);
+    EXPECT_EQ(
+        blurInto<uint32_t>(part, inputs), (surround<uint32_t>(own, 0x01020304u, whole, area.offset))
+    );
+}
+
+TEST_F(EmbeddedConventions, IdsInAStencilServeResolvedAlsoBesideTheDepthOfTheSameImage) {
+    HostInputs inputs = movingCameraInputs();
+    HostConvention& convention = inputs.convention;
+    convention.vectors = {};
+    convention.depth.isLinear = false;
+    convention.depth.skyValue = 0.0f;
+    const auto raw = convert<float>(drawn.metres, [](float metres) {
+        return metres >= 1.0e9f ? 0.0f : kNear / metres;
+    });
+    const auto small = convert<uint8_t>(drawn.ids, [](uint32_t id) { return uint8_t(id); });
+    const std::array<glm::dmat4, 2> poses{
+        glm::translate(glm::dmat4(1.0), glm::dvec3(-0.4, 0.0, 0.0)), glm::dmat4(1.0)};
+    const std::array<motion_blur::HostMover, 1> movers{{{7, poses}}};
+    inputs.motion.rowCount = 201;
+    inputs.motion.movers = movers;
+    inputs.noEntity = 255;
+    convention.depth.image = make(VK_FORMAT_D32_SFLOAT, raw);
+    inputs.entityId = make(VK_FORMAT_R8_UINT, small);
+    const MotionBlurSettings settings = test::settingsOf("resolved", 5);
+    const image::Image own = draw(inputs, settings);
+
+    for (const VkFormat format : {VK_FORMAT_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT}) {
+        if (!canUse(format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+            continue;
+        SCOPED_TRACE(gpu::nameFormat(format));
+        std::vector<std::byte> texels;
+        if (format != VK_FORMAT_S8_UINT) {
+            const auto depths = test::bytesOf(raw);
+            texels.assign(depths.begin(), depths.end());
+        }
+        const auto ids = test::bytesOf(small);
+        texels.insert(texels.end(), ids.begin(), ids.end());
+        inputs.entityId = make(format, texels);
+        EXPECT_TRUE(test::sameBits(draw(inputs, settings), own)) << "an image of its own";
+        if (format == VK_FORMAT_S8_UINT)
+            continue;
+        convention.depth.image = inputs.entityId;
+        EXPECT_TRUE(test::sameBits(draw(inputs, settings), own)) << "the image of depth";
+        convention.depth.image.after = test::kSampled;
+        test::expectRefusal(
+            refuse(inputs, settings),
+            "entityId.image is depth.image: format, extent, before and after"
+        );
+    }
+    inputs.noEntity = 256;
+    test::expectRefusal(
+        refuse(inputs, settings), "noEntity is 256, but entityId holds values up to 255"
+    );
 }
 
 TEST_F(EmbeddedConventions, SmallIdsServeResolved) {
@@ -618,6 +819,46 @@ TEST_F(EmbeddedConventions, AViewModelIsSharpBeforeABlurredBackground) {
     EXPECT_EQ(sharp, 30u * 30u);
     EXPECT_LT(wasSharp, 30u * 30u);
     EXPECT_GT(blurredPixels, kConventionPixels / 4);
+
+    // By its depth, with ids that do not know it, and without any.
+    HostInputs byDepth = inputs;
+    byDepth.motion.viewModelRows = {};
+    byDepth.convention.viewModel.depthMin = byDepth.convention.viewModel.depthMax = 2.0f;
+    byDepth.entityId = make(VK_FORMAT_R32_UINT, convert<uint32_t>(drawn.ids, [](uint32_t id) {
+                                return id == 7 ? 1 : id;
+                            }));
+    EXPECT_TRUE(test::sameBits(draw(byDepth, settings), made));
+    // A row that the host does not have is not the view model's.
+    const auto drawOther = [&](uint32_t row) {
+        byDepth.entityId = make(VK_FORMAT_R32_UINT, convert<uint32_t>(drawn.ids, [&](uint32_t id) {
+                                    return id == 200 ? row : id;
+                                }));
+        return draw(byDepth, settings);
+    };
+    EXPECT_TRUE(test::sameBits(drawOther(201), drawOther(5000)));
+    byDepth.entityId = {}; // the boxes beside it are one with the wall then, to rounding
+    expectNear(draw(byDepth, settings), made, 60.0);
+    // Filters follow no camera there, either: without vectors it is as sharp as with a scale of 0.
+    HostInputs scaled = byDepth;
+    scaled.convention.viewModel = {};
+    scaled.convention.scales.perPixel =
+        make(VK_FORMAT_R32_SFLOAT, convert<float>(drawn.ids, [](uint32_t id) {
+                 return id == 7 ? 0.0f : 1.0f;
+             }));
+    EXPECT_TRUE(test::sameBits(draw(byDepth), draw(scaled)));
+    // Its own motion blurs it.
+    const std::array<glm::dmat4, 2> poses{
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.0, 0.0)), glm::dmat4(1.0)};
+    byDepth.convention.viewModel.viewFromObject = poses;
+    const image::Image moving = draw(byDepth, settings);
+    EXPECT_FALSE(test::sameBits(moving, made));
+    HostInputs cut = byDepth;
+    cut.convention.scales.isCut = true;
+    HostInputs plainCut = cut;
+    plainCut.convention.viewModel = {};
+    EXPECT_TRUE(test::sameBits(draw(cut, settings), draw(plainCut, settings)));
+    byDepth.convention.viewModel.viewFromObject = std::span(&poses[0], 1);
+    test::expectRefusal(refuse(byDepth, settings), "viewModel.viewFromObject holds 1, keys 2");
 }
 
 /// HostInputs::showsInputs: panels cover a part of the picture, and of nothing else. The left half

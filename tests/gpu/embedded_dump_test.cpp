@@ -125,6 +125,14 @@ class EmbeddedDump : public test::EmbeddedTest {
             inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
         inputs.motion.lens = mLens;
+        convention.viewModel = mViewModel;
+        if (mIsStored) {
+            std::vector<uint32_t> bytes;
+            for (const uint64_t texel : color)
+                bytes.push_back(glm::packUnorm4x8(glm::unpackHalf4x16(texel)));
+            inputs.color = make(VK_FORMAT_B8G8R8A8_UNORM, bytes);
+            inputs.transfer.curve = shader::kTransferSrgb;
+        }
         inputs.responsePoints = mResponse;
         inputs.motion.response = mTable ? &*mTable : nullptr;
         if (mIsPacked) {
@@ -174,6 +182,8 @@ class EmbeddedDump : public test::EmbeddedTest {
             ++same;
         EXPECT_EQ(same, pictures.size()) << printed;
         for (size_t i = 0; i < pictures.size(); ++i) {
+            if (pictures[i].pixels.empty())
+                continue; // compared by the replay alone
             const auto replayed = io::readImage(mFolder / fmt::format("replayed_{:04}.exr", i));
             ASSERT_TRUE(replayed.ok()) << replayed.error().message;
             EXPECT_TRUE(test::sameBits(replayed.value(), pictures[i])) << i;
@@ -191,6 +201,8 @@ class EmbeddedDump : public test::EmbeddedTest {
     double mFirstKey = 0.0; ///< its time
     bool mIsCut = false;
     motion_blur::HostLens mLens;
+    motion_blur::HostViewModel mViewModel;
+    bool mIsStored = false; ///< colours are bytes in gamma space
     bool mIsPacked = false; ///< vectors and depth are one image
 };
 
@@ -209,6 +221,8 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
     };
 
     const std::vector<double> focuses{2.0, 4.0};
+    const std::array<glm::dmat4, 2> poses{
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.0, 0.0)), glm::dmat4(1.0)};
     const std::vector<math::ResponsePoint> points{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
     const auto camera = test::settingsOf("rosado2007");
     const auto resolved = test::settingsOf("resolved", 5);
@@ -235,7 +249,12 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
         {"a focus that is pulled",
          resolved,
          [&] { mLens = {.radius = 0.04, .focusDistances = focuses, .blades = 5}; }},
-        {"a closed lens", resolved, [&] { mLens = {}; }}};
+        {"a closed lens", resolved, [&] { mLens = {}; }},
+        {"bytes in gamma space", resolved, [&] { mIsStored = true; }},
+        {"a view model that moves", resolved, [&] {
+             mIsStored = false;
+             mViewModel = {.depthMin = 0.04f, .depthMax = 1.0f, .viewFromObject = poses};
+         }}};
     startDump(uint32_t(cases.size()));
     std::vector<image::Image> pictures;
     for (const Case& one : cases) {
@@ -243,6 +262,8 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureForAllInputs) {
         one.change();
         const std::string file = fmt::format("frame_{:04}.json", pictures.size());
         pictures.push_back(draw(0, one.settings));
+        if (mIsStored)
+            pictures.back() = {}; // its values are not light, as the dump's are
         // Older readers refuse the member.
         EXPECT_EQ(read(file).find("\"lens\"") != std::string::npos, mLens.isOpen());
     }

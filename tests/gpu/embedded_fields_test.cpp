@@ -56,7 +56,8 @@ std::set<std::string> listFields(const std::string& structure, const std::string
     for (std::sregex_iterator at(members.begin(), members.end(), kMember), end; at != end; ++at) {
         const std::string type = (*at)[1];
         const std::string name = prefix + (*at)[2].str();
-        if (type == "ShutterBlurCameras" || type == "ShutterBlurLens")
+        if (type == "ShutterBlurCameras" || type == "ShutterBlurLens" ||
+            type == "ShutterBlurViewModel")
             names.merge(listFields(type, name + "."));
         else
             names.insert(name);
@@ -266,6 +267,7 @@ EmbeddedFields::Changes EmbeddedFields::listChanges() const {
     static const uint32_t kViewModel = 200;
     static const std::array<double, 2> kFocus{1.0, 3.0};
     static const glm::dmat4 kElsewhere = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.2, 0));
+    static const std::array<glm::dmat4, 2> kPoses{glm::dmat4(1.0), kElsewhere};
     static const glm::dmat4 kZoomed = math::clipFromViewPerspective(1.2, 1.5, 0.125);
     const auto openLens = [](Inputs& in) { in.lens.radius = 0.02; };
     const auto bent = [openLens](const auto& change) {
@@ -381,6 +383,28 @@ EmbeddedFields::Changes EmbeddedFields::listChanges() const {
          {[](Inputs& in) { in.viewModelRows = &kViewModel, in.viewModelRowCount = 1; },
           "viewModelRows"}},
         {"viewModelRowCount", {[](Inputs& in) { in.viewModelRowCount = 1; }, "viewModelRows"}},
+        {"viewModel.depthMin", {[](Inputs& in) { in.viewModel.depthMin = 1.0f; }, "depthMin"}},
+        {"viewModel.depthMax", {[](Inputs& in) { in.viewModel.depthMax = 2.0f; }, "depthMax"}},
+        {"viewModel.clipFromView",
+         {[](Inputs& in) {
+              in.viewModel.depthMax = 2.0f;
+              copyMatrix(in.viewModel.clipFromView, kZoomed);
+          },
+          "viewModel.clipFromView"}},
+        {"viewModel.viewFromObject",
+         {[](Inputs& in) {
+              in.viewModel.depthMax = 2.0f;
+              in.viewModel.viewFromObject = &kPoses[0][0].x;
+          },
+          "viewModel.viewFromObject"}},
+        {"transfer", {[](Inputs& in) { in.transfer = SHUTTER_BLUR_TRANSFER_SRGB; }, "transfer"}},
+        {"transferPower",
+         {[](Inputs& in) {
+              in.transfer = SHUTTER_BLUR_TRANSFER_POWER;
+              in.transferPower = 4.0;
+          },
+          "transferPower"}},
+        {"transferScale", {[](Inputs& in) { in.transferScale = 0.0; }, "transferScale"}},
         {"cutDistance", {[](Inputs& in) { in.cutDistance = 0.01; }, "cutDistance"}},
         {"cutDegrees", {[](Inputs& in) { in.cutDegrees = 0.01; }, "cutDegrees"}},
     };

@@ -185,8 +185,16 @@ TEST_F(EmbeddedRefusals, EachBadImageIsNamed) {
         in.motionDepth.image = in.color.image;
     });
     refuse("leave output.image null", [](auto& in) { in.output.image = in.color.image; });
-    refuse("color.format is R8G8B8A8_UNORM", [](auto& in) {
-        in.color.format = VK_FORMAT_R8G8B8A8_UNORM;
+    refuse("color.format is R8G8_UNORM", [](auto& in) { in.color.format = VK_FORMAT_R8G8_UNORM; });
+    refuse("depth by VK_RESOLVE_MODE_SAMPLE_ZERO_BIT", [](CInputs& in) {
+        in.depth = in.motionDepth;
+        in.motionDepth = {};
+        in.depth.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+        in.depth.samples = VK_SAMPLE_COUNT_4_BIT;
+    });
+    refuse("output.usage lacks VK_IMAGE_USAGE_TRANSFER_DST_BIT", [](auto& in) {
+        in.output.format = VK_FORMAT_B8G8R8A8_UNORM;
+        in.output.usage = VK_IMAGE_USAGE_STORAGE_BIT;
     });
     refuse("motionDepth.format is", [](auto& in) { std::swap(in.color, in.motionDepth); });
     refuse("color.samples is 4", [](auto& in) { in.color.samples = VK_SAMPLE_COUNT_4_BIT; });
@@ -241,6 +249,19 @@ TEST_F(EmbeddedRefusals, EachBadNumberOfTheInputsIsNamed) {
         in.lens.radius = 0.01;
     });
     refuse("motion blur: view is 7", [](CInputs& in) { in.view = 7; });
+    refuse("transfer is 3, it must be 0", [](CInputs& in) {
+        in.transfer = static_cast<ShutterBlurTransfer>(3);
+    });
+    for (const double wrong : {0.5, 4.0, double(kNan)})
+        refuse("transferPower is ", [&](CInputs& in) {
+            in.transfer = SHUTTER_BLUR_TRANSFER_POWER;
+            in.transferPower = wrong;
+        });
+    for (const double wrong : {0.0, 17.0, double(kNan)})
+        refuse("transferScale is ", [&](CInputs& in) { in.transferScale = wrong; });
+    refuse("viewModel.depthMax is 0.25, but motionDepth is given", [](CInputs& in) {
+        in.viewModel.depthMax = 0.25f;
+    });
     refuse("motionDepth.image is null, and so are vectors.image and depth.image", [](CInputs& in) {
         in.motionDepth = {};
     });

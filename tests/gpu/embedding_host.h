@@ -205,17 +205,22 @@ class HostTexels {
         mStaging.writeBytes(texels.data(), texels.size(), 0);
     }
 
+    /// Texels of depth with a stencil are all depths, then all stencils, or the first alone.
     void record(VkCommandBuffer commands) const {
-        const VkImageAspectFlags aspect = gpu::aspectOf(mFormat);
-        moveOn(commands, mImage.handle(), kNothing, kWritten, {aspect, 0, 1, 0, 1});
+        const VkImageAspectFlags aspects = gpu::aspectOf(mFormat);
+        moveOn(commands, mImage.handle(), kNothing, kWritten, {aspects, 0, 1, 0, 1});
         VkBufferImageCopy region{};
-        // Depth alone is copied of an image that has a stencil, too.
-        region.imageSubresource = {
-            aspect & ~VkImageAspectFlags(VK_IMAGE_ASPECT_STENCIL_BIT), 0, 0, 1};
         region.imageExtent = {mExtent.width, mExtent.height, 1};
-        vkCmdCopyBufferToImage(
-            commands, mStaging.handle(), mImage.handle(), kWritten.layout, 1, &region
-        );
+        for (const VkImageAspectFlags aspect :
+             {VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_ASPECT_STENCIL_BIT}) {
+            if ((aspects & aspect) == 0 || region.bufferOffset >= mStaging.bytes())
+                continue;
+            region.imageSubresource = {aspect, 0, 0, 1};
+            vkCmdCopyBufferToImage(
+                commands, mStaging.handle(), mImage.handle(), kWritten.layout, 1, &region
+            );
+            region.bufferOffset += 4ull * mExtent.width * mExtent.height;
+        }
     }
 
     [[nodiscard]] motion_blur::HostImage describe(VkRect2D area = {}) const {

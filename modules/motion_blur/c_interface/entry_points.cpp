@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The C interface: nothing leaves it but results and sentences.
 #define SHUTTER_BLUR_BUILDS
+#include "modules/motion_blur/c_interface/entity_match.h"
 #include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/c_interface/structures.h"
 #include "modules/motion_blur/embedding/host_features.h"
 #include "modules/motion_blur/embedding/one_thread.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <string>
@@ -104,6 +106,26 @@ ShutterBlurResult shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t que
         if (!physical)
             return refuse({"motion blur: physical is null"});
         return finish(motion_blur::checkHostDevice(physical, queueFamily));
+    });
+}
+
+ShutterBlurResult shutterBlurMatchEntities(
+    const ShutterBlurEntity* before,
+    uint32_t beforeCount,
+    const ShutterBlurEntity* now,
+    uint32_t nowCount,
+    double reach,
+    uint32_t* indexBefore
+) {
+    return guard([&] {
+        if ((beforeCount > 0 && !before) || (nowCount > 0 && (!now || !indexBefore)))
+            return refuse({"motion blur: a list of entities is null, its length is not 0"});
+        if (!(reach >= 0.0))
+            return refuse({"motion blur: reach is not 0 or more"});
+        const std::vector<uint32_t> found =
+            motion_blur::matchEntities({before, beforeCount}, {now, nowCount}, reach);
+        std::copy(found.begin(), found.end(), indexBefore);
+        return SHUTTER_BLUR_SUCCESS;
     });
 }
 

@@ -266,6 +266,31 @@ typedef struct ShutterBlurLens {
     uint32_t blades;      /* sides of the opening, 3 to 16; 0: a disc */
 } ShutterBlurLens;
 
+/* A weapon, cockpit or the like that is drawn over the world in a range of depth values, and often
+ * with a projection, of its own. In that range only its pixels lie, whatever `entityId` has there.
+ * The camera does not blur them. */
+typedef struct ShutterBlurViewModel {
+    /* Lowest and highest value of `depth`, as stored, that its pixels have and no others: the depth
+     * range of its viewport. Both 0: there is none. */
+    float depthMin;
+    float depthMax;
+    /* Projection that it is drawn with, that range included, as cameras.clipFromView. All 0:
+     * cameras.clipFromView itself. 0 where depthIsLinear. */
+    double clipFromView[16];
+    /* For "resolved" and "adaptive": view space from the model's own, 16 numbers for each camera
+     * key, or two as of worldFromObject: how it moves before the camera. Null: it is sharp. Filters
+     * blur it by `vectors`, which have no camera's part in it; without vectors it is sharp. */
+    const double* viewFromObject;
+} ShutterBlurViewModel;
+
+/* How stored values become light: see ShutterBlurInputs::transfer. */
+typedef enum ShutterBlurTransfer {
+    SHUTTER_BLUR_TRANSFER_LINEAR = 0, /* light is the value */
+    SHUTTER_BLUR_TRANSFER_SRGB = 1,   /* by the curve of sRGB (IEC 61966-2-1) */
+    SHUTTER_BLUR_TRANSFER_POWER = 2,  /* light is the value to the power of transferPower */
+    SHUTTER_BLUR_TRANSFER_MAX = 0x7FFFFFFF
+} ShutterBlurTransfer;
+
 /* The sensor's sensitivity at a shutter time, relative to that at others. */
 typedef struct ShutterBlurResponsePoint {
     double time;        /* shutter time, [0, 1]: 0 open, 1 close */
@@ -383,11 +408,13 @@ typedef struct ShutterBlurInputs {
     uint32_t structBytes;
     uint32_t width; /* of the picture, pixels, [1, 32768] */
     uint32_t height;
-    /* RGBA16F, RGBA32F or B10G11R11; linear. Sampled; RGBA16F of the picture's size: transfer
-     * source, too; in place: storage, too. */
+    /* RGBA16F, RGBA32F, B10G11R11, RGBA8, BGRA8, A2B10G10R10, A2R10G10B10, RGBA16 (UNORM),
+     * RGBA8 or BGRA8 (sRGB), by `transfer`. Sampled; RGBA16F of the picture's size: transfer
+     * source, too; in place: as `output`, too. */
     ShutterBlurImage color;
-    /* Like `color`, with storage usage; RGBA16F of the picture's size needs transfer-destination
-     * usage, too. Null: in place; the blurred picture replaces `color`. */
+    /* Like `color`. Storage usage for the first three formats, transfer-destination usage for the
+     * others and for RGBA16F of the picture's size. Null: in place; the blurred picture replaces
+     * `color`. */
     ShutterBlurImage output;
 
     /* Either motion and depth in the effect's own format, RGBA32F: displacement over the exposure,
@@ -435,8 +462,9 @@ typedef struct ShutterBlurInputs {
     int64_t frameNumber; /* consecutive frames have consecutive numbers */
 
     /* For "resolved": */
-    /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
-     * is static in the world, and rowCount does not count. */
+    /* R32_UINT, R16_UINT or R8_UINT, or the stencil of D24S8, D32FS8, D16S8 or S8, of any size;
+     * sampled. It may be the image of `depth`, with the same use before and after. Null, without
+     * movers: all but the sky is static in the world, and rowCount does not count. */
     ShutterBlurImage entityId;
     uint32_t noEntity; /* its value for the background, which the format must hold */
     /* [1, 2^24 - 1]. Values are rows below it; a pixel of another one, but noEntity, counts as
@@ -535,6 +563,16 @@ typedef struct ShutterBlurInputs {
      */
     double cutDistance;
     double cutDegrees;
+
+    /* Named by depth, in place of viewModelRows or with them. Counts without motionDepth. */
+    ShutterBlurViewModel viewModel;
+
+    /* How values of `color`, lastColor and `output` become light, which alone can be averaged:
+     * light is the curve of transferScale times the value. Alpha is not converted, and sRGB formats
+     * have their own curve. `blended`, and what the host's callbacks write, is light. */
+    ShutterBlurTransfer transfer;
+    double transferPower; /* of SHUTTER_BLUR_TRANSFER_POWER, [1, 3] */
+    double transferScale; /* 2 for a picture that is displayed twice as bright, [1/16, 16] */
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
@@ -550,6 +588,8 @@ static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
     made.noEntity = 0xFFFFFFFFu;
     made.lens.focusDistance = 10.0;
     made.lens.squeeze = 1.0;
+    made.transferPower = 2.2;
+    made.transferScale = 1.0;
     return made;
 }
 
@@ -586,6 +626,28 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32
 /* Closes the view: the history of "resolved" is freed once the view's frames are complete. Its
  * index may be reused. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view);
+
+/* ---- Entities without names ----------------------------------------------------------------- */
+
+/* An entity that a host lists anew in each frame. */
+typedef struct ShutterBlurEntity {
+    uint64_t model;  /* equal for what may be the same entity: model, skin, part, the host's hint */
+    double place[3]; /* in the world */
+} ShutterBlurEntity;
+
+/* Finds each entity's place in the list of the frame before: pairs of the same model, the nearest
+ * first, no farther apart than `reach`, each entity once. `indexBefore` gets nowCount indices into
+ * `before`, UINT32_MAX for what is new. With them a host makes rowIds and movers' matrices. Takes
+ * time by the number of pairs within `reach`. Places that are not finite match nothing. Error: a
+ * pointer is null, or `reach` is negative or NaN. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurMatchEntities(
+    const ShutterBlurEntity* before,
+    uint32_t beforeCount,
+    const ShutterBlurEntity* now,
+    uint32_t nowCount,
+    double reach,
+    uint32_t* indexBefore
+);
 
 /* ---- Times and counters --------------------------------------------------------------------- */
 

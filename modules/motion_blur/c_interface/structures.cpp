@@ -79,6 +79,9 @@ HostConvention convertConvention(const ShutterBlurInputs& given) {
     convention.scales.displayedPerRendered = given.displayedPerRendered;
     convention.scales.perPixel = convert(given.blurScale);
     convention.scales.isCut = given.isCut != VK_FALSE;
+    convention.viewModel.depthMin = given.viewModel.depthMin;
+    convention.viewModel.depthMax = given.viewModel.depthMax;
+    convention.viewModel.clipFromView = convertMatrix(given.viewModel.clipFromView);
     return convention;
 }
 
@@ -115,6 +118,15 @@ HostLens convertLens(const ShutterBlurInputs& given) {
     lens.squeeze = given.lens.squeeze;
     lens.blades = given.lens.blades;
     return lens;
+}
+
+/// Copies matrices, one per key.
+std::span<const glm::dmat4> convertViewModel(const ShutterBlurInputs& given, InputArrays& arrays) {
+    arrays.viewFromObject.clear();
+    if (const double* matrices = given.viewModel.viewFromObject)
+        for (uint32_t key = 0; key < countMatrices(given); ++key)
+            arrays.viewFromObject.push_back(convertMatrix(matrices + 16 * size_t{key}));
+    return arrays.viewFromObject;
 }
 
 HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
@@ -319,6 +331,8 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
     inputs.output = convert(wanted.output);
     inputs.motionDepth = convert(wanted.motionDepth);
     inputs.convention = convertConvention(wanted);
+    inputs.convention.viewModel.viewFromObject = convertViewModel(wanted, arrays);
+    inputs.transfer = {uint32_t(wanted.transfer), wanted.transferPower, wanted.transferScale};
     inputs.entityId = convert(wanted.entityId);
     inputs.noEntity = wanted.noEntity;
     inputs.rasterTime = wanted.rasterTime;

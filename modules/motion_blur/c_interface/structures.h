@@ -52,6 +52,7 @@ struct InputArrays {
     std::vector<HostCameraKey> keys;
     std::vector<HostMover> movers;
     std::vector<glm::dmat4> matrices;
+    std::vector<glm::dmat4> viewFromObject;
     std::vector<math::ResponsePoint> response;
 };
 

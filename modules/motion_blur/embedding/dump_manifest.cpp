@@ -43,6 +43,17 @@ ordered_json describeCameras(const HostCameras& cameras) {
     return root;
 }
 
+ordered_json describeViewModel(const HostViewModel& model) {
+    ordered_json matrices = ordered_json::array();
+    for (const glm::dmat4& matrix : model.viewFromObject)
+        matrices.push_back(describeMatrix(matrix));
+    return {
+        {"depthMin", model.depthMin},
+        {"depthMax", model.depthMax},
+        {"clipFromView", describeMatrix(model.clipFromView)},
+        {"viewFromObject", std::move(matrices)}};
+}
+
 ordered_json describeConvention(const HostConvention& convention) {
     ordered_json root;
     root["pixelsPerUnit"] = {
@@ -60,6 +71,8 @@ ordered_json describeConvention(const HostConvention& convention) {
     root["objectScale"] = convention.scales.object;
     root["displayedPerRendered"] = convention.scales.displayedPerRendered;
     root["isCut"] = convention.scales.isCut;
+    if (convention.viewModel.isGiven())
+        root["viewModel"] = describeViewModel(convention.viewModel);
     return root;
 }
 

@@ -27,6 +27,12 @@ writeTable(gpu::Device& device, gpu::Buffer& buffer, const char* name, const Tab
     return buffer.address();
 }
 
+/// Ids beside depth are in the stencil.
+graph::ImageHandle viewIds(graph::ImageHandle image, const HostImage& given) {
+    constexpr VkImageAspectFlags kBoth = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    return gpu::aspectOf(given.format) == kBoth ? graph::stencilOf(image) : image;
+}
+
 } // namespace
 
 graph::ImageHandle EmbeddedMotionBlur::Frame::import(
@@ -152,11 +158,14 @@ std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     const VkExtent2D picture = pictureOf(inputs);
     LentRaster lent;
     lent.color = frame.import(*mDevice, "last colour", last.color, kLastColorRule);
-    if (!isNativeImage(last.color, kHostColorFormat, picture))
-        lent.color = mPreparation.addColor(frame.graph, lent.color, last.color, picture);
+    if (!isNativeColor(last.color, inputs.transfer, picture))
+        lent.color =
+            mPreparation.addColor(frame.graph, lent.color, last.color, inputs.transfer, picture);
     lent.motionDepth =
         frame.import(*mDevice, "last motion and depth", last.motionDepth, kLastMotionRule);
-    lent.entityId = frame.import(*mDevice, "last entity id", last.entityId, kLastIdRule);
+    lent.entityId = viewIds(
+        frame.import(*mDevice, "last entity id", last.entityId, kLastIdRule), last.entityId
+    );
     if (!lent.entityId.isValid())
         lent.entityId = mPreparation.addWorldIds(frame.graph, lent.motionDepth, picture);
     else if (!isNativeImage(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
@@ -210,16 +219,20 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     effectInputs.frameNumber = inputs.frameNumber;
     frame.images.color = frame.import(device, "color", inputs.color, colorRule(inputs));
     frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
-    const bool isNativeColor = isNativeImage(inputs.color, kHostColorFormat, picture);
+    const bool isNative = isNativeColor(inputs.color, inputs.transfer, picture);
     // A host's alpha has any meaning, and the lens's filter reads radii there.
-    const bool isRead = isNativeColor && (inputs.isOff || !seesThroughLens(inputs, frame.settings));
-    effectInputs.color =
-        isRead ? frame.images.color
-               : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
+    const bool isRead = isNative && (inputs.isOff || !seesThroughLens(inputs, frame.settings));
+    effectInputs.color = isRead
+                             ? frame.images.color
+                             : mPreparation.addColor(
+                                   graph, frame.images.color, inputs.color, inputs.transfer, picture
+                               );
+    if (!isIdentity(decodingOf(inputs.transfer, inputs.color.format)))
+        frame.images.light = effectInputs.color;
     effectInputs.colorIsWritable = !isRead || !inputs.output.image;
-    if (inputs.output.image && isNativeImage(inputs.output, kHostColorFormat, picture))
+    if (inputs.output.image && isNativeColor(inputs.output, inputs.transfer, picture))
         effectInputs.target = frame.output;
-    else if (!inputs.output.image && isNativeColor)
+    else if (!inputs.output.image && isNative)
         effectInputs.target = frame.images.color;
     // Those the method does not read are imported as well: they go over to their next use.
     effectInputs.motionDepth = prepareMotion(frame);
@@ -234,8 +247,12 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     frame.images.lastDeformed =
         frame.import(device, "last deformed motion", inputs.lastDeformedMotion, kLastDeformedRule);
     frame.images.blended = frame.import(device, "blended", inputs.blended, kBlendedRule);
-    effectInputs.entityId = frame.images.entityId =
-        frame.import(device, "entity id", inputs.entityId, kIdRule);
+    const bool areShared = sharesDepth(inputs) && frame.images.depth.isValid();
+    effectInputs.entityId = frame.images.entityId = viewIds(
+        areShared ? frame.images.depth
+                  : frame.import(device, "entity id", inputs.entityId, kIdRule),
+        inputs.entityId
+    );
     if (effectInputs.entityId.isValid() &&
         (!isNativeImage(inputs.entityId, kHostIdFormat, picture) ||
          inputs.noEntity != shader::kNoEntity))
@@ -245,6 +262,15 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     if (!effectInputs.entityId.isValid() && frame.settings.method->readsInstantMotions &&
         !inputs.isOff)
         effectInputs.entityId = mPreparation.addWorldIds(graph, effectInputs.motionDepth, picture);
+    if (hasViewModel(inputs) && effectInputs.entityId.isValid() && !inputs.isOff)
+        effectInputs.entityId = mPreparation.addViewModel(
+            graph,
+            effectInputs.entityId,
+            frame.images.depth,
+            frame.slot.convention.address(),
+            isOneWorld(inputs) ? 1 : inputs.motion.rowCount,
+            picture
+        );
     return effectInputs;
 }
 
@@ -290,12 +316,13 @@ void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const
     const HostImage& given = inPlace ? inputs.color : inputs.output;
     if (inputs.isOff && inPlace && !inputs.blended.image && !inputs.drawn.record)
         picture = frame.images.color; // nothing is written
-    else if ((inputs.isOff && !inPlace) || !isNativeImage(given, kHostColorFormat, pictureOf(inputs)))
+    else if ((inputs.isOff && !inPlace) || !isNativeColor(given, inputs.transfer, pictureOf(inputs)))
         picture = mPreparation.addDelivery(
             frame.graph,
             picture,
             inPlace ? frame.images.color : frame.output,
             given.format == VK_FORMAT_UNDEFINED ? kHostColorFormat : given.format,
+            inputs.transfer,
             given.area.offset
         );
     frame.graph.markOutput(picture);
@@ -314,7 +341,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         (void)prepareLast(frame);
         if ((frame.images.blended.isValid() || frame.drawn) && !effectInputs.colorIsWritable)
             effectInputs.color = mPreparation.addColor(
-                frame.graph, effectInputs.color, inputs.color, pictureOf(inputs)
+                frame.graph, effectInputs.color, inputs.color, inputs.transfer, pictureOf(inputs)
             );
         deliver(frame, addBlended(frame, effectInputs.color, {}));
         return;

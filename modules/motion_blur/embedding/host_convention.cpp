@@ -33,6 +33,7 @@ constexpr std::array kDepthFormats{
     VK_FORMAT_X8_D24_UNORM_PACK32,
     VK_FORMAT_D24_UNORM_S8_UINT,
     VK_FORMAT_D32_SFLOAT_S8_UINT,
+    VK_FORMAT_D16_UNORM_S8_UINT,
     VK_FORMAT_R32_SFLOAT,
     VK_FORMAT_R16_SFLOAT,
     VK_FORMAT_R32G32_SFLOAT,
@@ -73,26 +74,55 @@ core::Status checkView(std::string_view name, const dmat4& viewFromWorld) {
     return {};
 }
 
+/// \param name of the field
 core::Status checkProjection(
     std::string_view name, const dmat4& clipFromView, bool aheadIsPlusZ, VkExtent2D picture
 ) {
     if (!math::isFinite(clipFromView))
-        return makeError("motion blur: cameras.{} is not finite", name);
+        return makeError("motion blur: {} is not finite", name);
     const HostCameraKey key{0.0, dmat4(1.0), clipFromView};
     const auto camera = motion_blur::normalize(key, aheadIsPlusZ);
     if (!camera && motion_blur::normalize(key, !aheadIsPlusZ))
         return makeError(
-            "motion blur: cameras.{} faces {}Z, cameras.aheadIsPlusZ "
+            "motion blur: {} faces {}Z, cameras.aheadIsPlusZ "
             "means {}Z",
             name,
             aheadIsPlusZ ? "-" : "+",
             aheadIsPlusZ ? "+" : "-"
         );
     if (!camera)
-        return makeError("motion blur: cameras.{} is neither perspective nor orthographic", name);
+        return makeError("motion blur: {} is neither perspective nor orthographic", name);
     const dmat4 place = camera->pictureFromWorld({picture.width, picture.height});
     if (!math::isFinite(glm::inverse(place)))
-        return makeError("motion blur: cameras.{} is singular", name);
+        return makeError("motion blur: {} is singular", name);
+    return {};
+}
+
+core::Status checkViewModel(const HostConvention& convention, VkExtent2D picture) {
+    const HostViewModel& model = convention.viewModel;
+    if (!std::isfinite(model.depthMin) || !std::isfinite(model.depthMax) ||
+        model.depthMin > model.depthMax)
+        return makeError(
+            "motion blur: viewModel.depthMin is {} and depthMax {}, they must be finite and rise",
+            model.depthMin,
+            model.depthMax
+        );
+    if (!model.isGiven() || !model.hasProjection())
+        return {};
+    if (convention.depth.isLinear)
+        return makeError("motion blur: viewModel.clipFromView is given, but depthIsLinear is true");
+    const bool isAhead = convention.cameras.aheadIsPlusZ;
+    SHUTTER_TRY(checkProjection("viewModel.clipFromView", model.clipFromView, isAhead, picture));
+    const auto normalizeProjection = [&](const dmat4& clipFromView) {
+        return motion_blur::normalize(HostCameraKey{0.0, dmat4(1.0), clipFromView}, isAhead);
+    };
+    const auto own = normalizeProjection(model.clipFromView);
+    const auto cameras = normalizeProjection(convention.cameras.clipFromView);
+    if (own && cameras && own->isPerspective != cameras->isPerspective)
+        return makeError(
+            "motion blur: viewModel.clipFromView is {}, cameras.clipFromView is not",
+            own->isPerspective ? "perspective" : "orthographic"
+        );
     return {};
 }
 
@@ -121,7 +151,8 @@ glm::vec4 depthFromRaw(const HostCamera& camera) {
 
 const HostImageRule kVectorsRule{
     .name = "vectors", .formats = kVectorFormats, .hasPictureSize = false};
-const HostImageRule kDepthRule{.name = "depth", .formats = kDepthFormats, .hasPictureSize = false};
+const HostImageRule kDepthRule{
+    .name = "depth", .formats = kDepthFormats, .hasPictureSize = false, .isDepth = true};
 const HostImageRule kBlurScaleRule{
     .name = "blurScale", .formats = kShareFormats, .hasPictureSize = false};
 
@@ -139,10 +170,11 @@ core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
         return {};
     SHUTTER_TRY(checkView("viewFromWorld", cameras.viewFromWorld));
     SHUTTER_TRY(checkView("viewFromWorldBefore", cameras.viewFromWorldBefore));
-    SHUTTER_TRY(checkProjection("clipFromView", cameras.clipFromView, cameras.aheadIsPlusZ, picture)
+    SHUTTER_TRY(
+        checkProjection("cameras.clipFromView", cameras.clipFromView, cameras.aheadIsPlusZ, picture)
     );
     SHUTTER_TRY(checkProjection(
-        "clipFromViewBefore", cameras.clipFromViewBefore, cameras.aheadIsPlusZ, picture
+        "cameras.clipFromViewBefore", cameras.clipFromViewBefore, cameras.aheadIsPlusZ, picture
     ));
     const auto pair = normalize(cameras);
     if (pair && pair->now.isPerspective != pair->before.isPerspective)
@@ -192,6 +224,7 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
         );
     SHUTTER_TRY(checkHostCameras(countedCameras(convention), picture));
     SHUTTER_TRY(checkScales(convention.scales, picture));
+    SHUTTER_TRY(checkViewModel(convention, picture));
     const char* need = findNeedForCameras(convention);
     if (need && !convention.cameras.areGiven)
         return makeError(
@@ -267,6 +300,12 @@ shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent
     const float share = scales.isCut ? 0.0f : scales.exposureShare / scales.displayedPerRendered;
     table.cameraScale = share * scales.camera;
     table.objectScale = share * scales.object;
+    const HostViewModel& model = convention.viewModel;
+    if (model.isGiven()) {
+        table.flags |= shader::kPrepareHasViewModel;
+        table.viewModelRange = {model.depthMin, model.depthMax};
+        table.viewModelFromValue = table.depthFromValue;
+    }
     if (!cameras.areGiven)
         return table;
     const auto pair = normalize(cameras);
@@ -274,7 +313,11 @@ shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent
     if (pair->now.isPerspective)
         table.flags |= shader::kPreparePerspective;
     if (!convention.depth.isLinear)
-        table.depthFromValue = depthFromRaw(pair->now);
+        table.depthFromValue = table.viewModelFromValue = depthFromRaw(pair->now);
+    if (model.hasProjection() && !convention.depth.isLinear)
+        table.viewModelFromValue = depthFromRaw(*motion_blur::normalize(
+            HostCameraKey{0.0, dmat4(1.0), model.clipFromView}, cameras.aheadIsPlusZ
+        ));
     // Both with this frame's jitter: places are those of its pixels, and it leaves their
     // differences.
     const auto pictureFromWorld = [&](const HostCamera& camera) {

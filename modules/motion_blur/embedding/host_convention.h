@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 
 namespace shutter::motion_blur {
 
@@ -52,12 +53,25 @@ struct HostScales {
     bool isCut = false;
 };
 
+/// ShutterBlurViewModel.
+struct HostViewModel {
+    float depthMin = 0.0f;
+    float depthMax = 0.0f;
+    glm::dmat4 clipFromView{0.0}; ///< all 0: the camera's
+    std::span<const glm::dmat4> viewFromObject;
+
+    [[nodiscard]] bool isGiven() const { return depthMin != 0.0f || depthMax != 0.0f; }
+
+    [[nodiscard]] bool hasProjection() const { return clipFromView != glm::dmat4(0.0); }
+};
+
 /// The host's inputs of the conversion pass.
 struct HostConvention {
     HostVectors vectors;
     HostDepth depth;
     HostCameras cameras;
     HostScales scales;
+    HostViewModel viewModel;
 };
 
 extern const HostImageRule kVectorsRule;   ///< HostVectors::image

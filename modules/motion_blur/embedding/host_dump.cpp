@@ -154,8 +154,13 @@ struct HostDump::Input {
 std::vector<HostDump::Input>
 HostDump::listInputs(const HostInputs& inputs, const ImportedInputs& images) {
     const HostConvention& convention = inputs.convention;
+    static const HostImage kLight; // of the picture's size
+    const bool isLight = images.light.isValid();
     std::vector<Input> list{
-        {"color", &inputs.color, images.color, chooseTexels(inputs.color)},
+        {"color",
+         isLight ? &kLight : &inputs.color,
+         isLight ? images.light : images.color,
+         chooseTexels(isLight ? kLight : inputs.color)},
         {"motionDepth", &inputs.motionDepth, images.motionDepth, shader::kDumpFloat4},
         {"vectors", &convention.vectors.image, images.vectors, shader::kDumpFloat2},
         {"depth", &convention.depth.image, images.depth, shader::kDumpFloat1},

@@ -178,18 +178,32 @@ core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExt
     SHUTTER_TRY(checkFormat(image, rule));
     if (image.samples != 0 && image.samples != VK_SAMPLE_COUNT_1_BIT)
         return makeError(
-            "motion blur: {}.samples is {}, it must be 1: resolve the image first",
+            "motion blur: {}.samples is {}, it must be 1: resolve the image first{}",
             rule.name,
-            uint32_t(image.samples)
+            uint32_t(image.samples),
+            rule.isDepth
+                ? ", depth by VK_RESOLVE_MODE_SAMPLE_ZERO_BIT or a shader that reads sample "
+                  "0: a mean of depths is of no surface"
+                : ""
         );
     SHUTTER_TRY(checkUsage(image, rule));
     return checkArea(image, rule, picture);
 }
 
 uint64_t leastBytes(VkExtent2D extent, VkFormat format) {
-    // Depth with a stencil has at least 4 bytes.
-    const bool hasStencil = (gpu::aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
-    return uint64_t(extent.width) * extent.height * (hasStencil ? 4 : gpu::texelBytes(format));
+    uint64_t bytes = 0;
+    switch (format) { // depth and stencil may be apart
+    case VK_FORMAT_D16_UNORM_S8_UINT:
+        bytes = 3;
+        break;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+        bytes = 4;
+        break;
+    default:
+        bytes = gpu::texelBytes(format);
+    }
+    return bytes * extent.width * extent.height;
 }
 
 core::Status checkDevice(

@@ -30,6 +30,7 @@ struct HostImageRule {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT; ///< that it needs
     bool isWritten = false;                               ///< its contents before do not matter
     bool hasPictureSize = true; ///< the part that is used has the picture's size
+    bool isDepth = false;
 };
 
 /// HostImage::format, or the rule's first where that is UNDEFINED.

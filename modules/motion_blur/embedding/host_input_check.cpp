@@ -23,10 +23,26 @@ using core::makeError;
 constexpr uint32_t kMaxPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
 
 constexpr std::array kColorFormats{
-    kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32};
+    kHostColorFormat,
+    VK_FORMAT_R32G32B32A32_SFLOAT,
+    VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+    VK_FORMAT_R8G8B8A8_UNORM,
+    VK_FORMAT_B8G8R8A8_UNORM,
+    VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+    VK_FORMAT_A2R10G10B10_UNORM_PACK32,
+    VK_FORMAT_R16G16B16A16_UNORM,
+    VK_FORMAT_R8G8B8A8_SRGB,
+    VK_FORMAT_B8G8R8A8_SRGB};
 constexpr std::array kMotionFormats{kHostMotionFormat};
 constexpr std::array kNormalFormats{kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT};
-constexpr std::array kIdFormats{kHostIdFormat, VK_FORMAT_R16_UINT, VK_FORMAT_R8_UINT};
+constexpr std::array kIdFormats{
+    kHostIdFormat,
+    VK_FORMAT_R16_UINT,
+    VK_FORMAT_R8_UINT,
+    VK_FORMAT_D24_UNORM_S8_UINT,
+    VK_FORMAT_D32_SFLOAT_S8_UINT,
+    VK_FORMAT_D16_UNORM_S8_UINT,
+    VK_FORMAT_S8_UINT};
 
 core::Status check(
     const HostImage& image, const HostImageRule& rule, VkExtent2D picture, const HostAbilities& host
@@ -262,13 +278,26 @@ core::Status checkIds(const HostInputs& inputs, const Method& method, const Host
         );
     SHUTTER_TRY(check(inputs.entityId, kIdRule, pictureOf(inputs), host));
     const VkFormat format = formatOf(inputs.entityId, kIdRule);
-    const uint32_t most = format == VK_FORMAT_R8_UINT    ? 0xFFu
+    const uint32_t most = format == VK_FORMAT_R32_UINT   ? 0xFFFFFFFFu
                           : format == VK_FORMAT_R16_UINT ? 0xFFFFu
-                                                         : 0xFFFFFFFFu;
+                                                         : 0xFFu;
     if (inputs.noEntity > most)
         return makeError(
             "motion blur: noEntity is {}, but entityId holds values up to {}", inputs.noEntity, most
         );
+    if (!sharesDepth(inputs))
+        return {};
+    const HostImage& depth = inputs.convention.depth.image;
+    const HostImage& ids = inputs.entityId;
+    const auto isSame = [](const graph::OutsideUse& a, const graph::OutsideUse& b) {
+        return a.layout == b.layout && a.stages == b.stages && a.access == b.access;
+    };
+    if (!holdsStencil(format) || format != depth.format ||
+        extentOf(ids, pictureOf(inputs)).width != extentOf(depth, pictureOf(inputs)).width ||
+        extentOf(ids, pictureOf(inputs)).height != extentOf(depth, pictureOf(inputs)).height ||
+        !isSame(ids.before, depth.before) || !isSame(ids.after, depth.after))
+        return makeError("motion blur: entityId.image is depth.image: format, extent, before and "
+                         "after must be those of depth, which has a stencil");
     return {};
 }
 
@@ -290,6 +319,18 @@ core::Status checkMethod(
             method.name
         );
     SHUTTER_TRY(checkScalesCount(inputs, method));
+    if (inputs.convention.viewModel.isGiven() && inputs.motionDepth.image)
+        return makeError(
+            "motion blur: viewModel.depthMax is {}, but motionDepth is given; it names "
+            "pixels by the values of depth",
+            inputs.convention.viewModel.depthMax
+        );
+    if (hasViewModel(inputs) && inputs.last.color.image)
+        return makeError(
+            "motion blur: viewModel.depthMax is {}, but lastColor is given, whose pixels "
+            "have no such depth; name it by viewModelRows",
+            inputs.convention.viewModel.depthMax
+        );
     if (method.rays == RayNeed::Query)
         SHUTTER_TRY(checkSamples(inputs, settings, host));
     if (method.rays == RayNeed::Any)
@@ -354,6 +395,7 @@ core::Status checkResponsePoints(const HostInputs& inputs) {
 
 core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(checkTransfer(inputs.transfer));
     SHUTTER_TRY(checkDistinct(inputs)); // the same image twice may be too small for one of them
     SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
     if (inputs.output.image)
@@ -367,6 +409,10 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     else if (!inputs.isOff)
         SHUTTER_TRY(checkMadeMotion(inputs, host));
     return {};
+}
+
+VkImageUsageFlags usageToDeliver(const HostImage& image) {
+    return packingOf(image.format) ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : VK_IMAGE_USAGE_STORAGE_BIT;
 }
 
 /// Keys other than the raster's belong to another place.
@@ -384,6 +430,8 @@ void keepRasterKey(HostMotion& motion, double rasterTime, std::vector<HostMover>
     std::span<const double>& focus = motion.lens.focusDistances;
     if (focus.data() && focus.size() == keys.size())
         focus = focus.subspan(index, 1);
+    if (motion.viewFromObject.data() && motion.viewFromObject.size() == keys.size())
+        motion.viewFromObject = motion.viewFromObject.subspan(index, 1);
     motion.followsLast = false;
     if (!motion.movers.data())
         return;
@@ -426,9 +474,27 @@ HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& mover
         return motion;
     motion.cameraScale = inputs.convention.scales.camera;
     motion.objectScale = inputs.convention.scales.object;
+    const HostViewModel& model = inputs.convention.viewModel;
+    motion.hasViewModel = model.isGiven();
+    motion.viewModelProjection = model.clipFromView;
+    motion.viewFromObject = model.isGiven() ? model.viewFromObject : std::span<const glm::dmat4>();
     if (inputs.convention.scales.isCut)
         keepRasterKey(motion, inputs.rasterTime, movers);
     return motion;
+}
+
+bool hasViewModel(const HostInputs& inputs) {
+    return !inputs.motionDepth.image && inputs.convention.viewModel.isGiven();
+}
+
+bool holdsStencil(VkFormat format) {
+    return (gpu::aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
+}
+
+bool sharesDepth(const HostInputs& inputs) {
+    const HostImage& depth = inputs.convention.depth.image;
+    return !inputs.motionDepth.image && inputs.entityId.image &&
+           inputs.entityId.image == depth.image && inputs.entityId.layer == depth.layer;
 }
 
 double timeOfFrameBefore(const HostInputs& inputs) {
@@ -442,12 +508,17 @@ bool isNativeImage(const HostImage& image, VkFormat format, VkExtent2D picture) 
            isWhole(image, picture);
 }
 
+bool isNativeColor(const HostImage& image, const HostTransfer& transfer, VkExtent2D picture) {
+    return isNativeImage(image, kHostColorFormat, picture) &&
+           isIdentity(decodingOf(transfer, kHostColorFormat));
+}
+
 HostImageRule colorRule(const HostInputs& inputs) {
     HostImageRule rule{.name = "color", .formats = kColorFormats};
     if (isNativeImage(inputs.color, kHostColorFormat, pictureOf(inputs)))
         rule.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (!inputs.output.image)
-        rule.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+        rule.usage |= usageToDeliver(inputs.color);
     return rule;
 }
 
@@ -455,7 +526,7 @@ HostImageRule outputRule(const HostInputs& inputs) {
     HostImageRule rule{
         .name = "output",
         .formats = kColorFormats,
-        .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+        .usage = usageToDeliver(inputs.output),
         .isWritten = true};
     if (isNativeImage(inputs.output, kHostColorFormat, pictureOf(inputs)))
         rule.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;

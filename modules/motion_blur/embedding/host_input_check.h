@@ -25,6 +25,11 @@ extern const HostImageRule kDeformedRule;
 extern const HostImageRule kLastDeformedRule;
 extern const HostImageRule kBlendedRule;
 
+/// The image of ids is the stencil of the one of depth.
+[[nodiscard]] bool sharesDepth(const HostInputs& inputs);
+/// The format holds ids in a stencil.
+[[nodiscard]] bool holdsStencil(VkFormat format);
+
 [[nodiscard]] HostImageRule colorRule(const HostInputs& inputs);
 [[nodiscard]] HostImageRule outputRule(const HostInputs& inputs);
 
@@ -38,8 +43,15 @@ extern const HostImageRule kBlendedRule;
 /// \param movers is filled where the result needs it, and must outlive that
 [[nodiscard]] HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& movers);
 
+/// ShutterBlurInputs::viewModel marks pixels by their depth.
+[[nodiscard]] bool hasViewModel(const HostInputs& inputs);
+
 /// The part of the image that is used is one that the effect may read, write and copy itself.
 [[nodiscard]] bool isNativeImage(const HostImage& image, VkFormat format, VkExtent2D picture);
+
+/// The same for colours, which must be light.
+[[nodiscard]] bool
+isNativeColor(const HostImage& image, const HostTransfer& transfer, VkExtent2D picture);
 
 /// Samples have places of the lens, which is open and which the method reads.
 [[nodiscard]] bool seesThroughLens(const HostInputs& inputs, const MotionBlurSettings& settings);

@@ -12,6 +12,7 @@
 #include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_image.h"
 #include "modules/motion_blur/embedding/host_motion.h"
+#include "modules/motion_blur/embedding/host_transfer.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/methods.h"
@@ -82,6 +83,7 @@ struct HostInputs {
     HostImage entityId;
     uint32_t noEntity = 0xFFFFFFFF;
     HostImage output;
+    HostTransfer transfer; ///< of `color`, last.color and `output`
     double rasterTime = 1.0;
     std::span<const math::ResponsePoint> responsePoints; ///< empty: a box, unless `response`
     /// In place of the points, a shader::ResponseTable (shutter_response_shared.h) that the host

@@ -21,6 +21,7 @@ using math::LayerBuilder;
 using math::LayerTables;
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
+const dmat4 kUnmoved(1.0);
 /// Within which a key is at the raster instant: hosts may compute the two apart.
 constexpr double kSameTime = 1.0e-6;
 
@@ -30,7 +31,7 @@ bool showsTheSame(const HostRaster& last, const HostRaster& now) {
         return a.row == b.row && !a.deforms && !b.deforms && a.worldFromObject == b.worldFromObject;
     };
     return last.pictureFromWorld == now.pictureFromWorld && last.rowCount == now.rowCount &&
-           last.rowIds == now.rowIds &&
+           last.hasViewModel == now.hasViewModel && last.rowIds == now.rowIds &&
            std::equal(
                last.movers.begin(), last.movers.end(), now.movers.begin(), now.movers.end(), isSame
            );
@@ -103,6 +104,7 @@ class Builder {
         raster.isPerspective = isPerspective();
         raster.pictureFromWorld = mCamera.atKey(mRasterKey).pictureFromWorld(mFrame.sizePx);
         raster.rowCount = mMotion.rowCount;
+        raster.hasViewModel = mMotion.hasViewModel;
         for (const HostMover& mover : mMotion.movers) {
             const bool deforms = mover.worldFromObject.empty();
             raster.movers.push_back(
@@ -157,7 +159,9 @@ class Builder {
     }
 
     [[nodiscard]] LayerTables describeRaster(const dmat4& picture) const {
-        LayerBuilder layer(picture, mPictures, isPerspective(), mMotion.rowCount);
+        LayerBuilder layer(
+            picture, mPictures, isPerspective(), mMotion.rowCount + mMotion.hasViewModel
+        );
         for (size_t i = 0; i < mMotion.movers.size(); ++i) {
             const HostMover& mover = mMotion.movers[i];
             if (mWays[i] && mMotion.objectScale == 0.0)
@@ -169,7 +173,29 @@ class Builder {
         }
         for (const uint32_t row : mMotion.viewModelRows)
             layer.addFixed(row);
+        if (mMotion.hasViewModel)
+            addViewModel(layer);
         return layer.take();
+    }
+
+    /// The row of the view model that depth names, which the camera does not move.
+    void addViewModel(LayerBuilder& layer) const {
+        const std::span<const dmat4> keys = mMotion.viewFromObject;
+        const bool moves = !keys.empty() && mMotion.objectScale != 0.0;
+        const MoverWay way(moves ? keys : std::span(&kUnmoved, 1));
+        if (!moves || way.staysAt(keys[mRasterKey])) {
+            layer.addFixed(mMotion.rowCount);
+            return;
+        }
+        const dmat4& own = mMotion.viewModelProjection;
+        const dmat4& clipFromView = own == dmat4(0.0) ? mMotion.keys[mRasterKey].clipFromView : own;
+        const auto project = [&](const dmat4& viewFromObject) {
+            const HostCameraKey key{0.0, viewFromObject, clipFromView};
+            return normalize(key, mMotion.aheadIsPlusZ).value().pictureFromWorld(mFrame.sizePx);
+        };
+        layer.addPicture(mMotion.rowCount, project(keys[mRasterKey]), [&](size_t instant) {
+            return project(way.at(mObjectPlaces[instant]));
+        });
     }
 
     /// By row of the last raster: the same entity's row now, or kNone.
@@ -203,7 +229,9 @@ class Builder {
     }
 
     [[nodiscard]] LayerTables describeLast(const HostRaster& last) const {
-        LayerBuilder layer(last.pictureFromWorld, mPictures, isPerspective(), last.rowCount);
+        LayerBuilder layer(
+            last.pictureFromWorld, mPictures, isPerspective(), last.rowCount + last.hasViewModel
+        );
         std::vector<const HostRaster::Mover*> moverThen(last.rowCount, nullptr);
         for (const HostRaster::Mover& mover : last.movers)
             moverThen[mover.row] = &mover;
@@ -222,6 +250,10 @@ class Builder {
                 layer.setMover(row, shader::kNoMover);
             else
                 addMover(layer, row, *mWays[moverNow], then->worldFromObject);
+        }
+        if (last.hasViewModel) { // as of viewModelRows
+            layer.setMover(last.rowCount, shader::kNoMover);
+            rows.push_back(kNone);
         }
         layer.setRasterRows(std::move(rows));
         return layer.take();

@@ -43,6 +43,7 @@ struct HostRaster {
     bool isPerspective = true;
     math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
     uint32_t rowCount = 0;
+    bool hasViewModel = false; ///< it has one more row, HostMotion::hasViewModel's
     std::vector<Mover> movers;
     std::vector<uint64_t> rowIds; ///< empty: the row is the id
 };

@@ -50,7 +50,11 @@ struct HostMotion {
     std::span<const HostMover> movers;
     std::span<const uint64_t> rowIds;
     std::span<const uint32_t> viewModelRows; ///< ShutterBlurInputs::viewModelRows
-    double cameraScale = 1.0;                ///< HostScales::camera, where the convention counts
+    /// There is one more row, rowCount, for pixels that HostConvention::viewModel names by depth.
+    bool hasViewModel = false;
+    glm::dmat4 viewModelProjection{0.0};        ///< of that row; all 0: the raster key's
+    std::span<const glm::dmat4> viewFromObject; ///< as many as camera keys, or empty: sharp
+    double cameraScale = 1.0;                   ///< HostScales::camera, where the convention counts
     double objectScale = 1.0;
     /// The table in main memory that HostInputs::response is the address of; null where that is 0.
     const shader::ResponseTable* response = nullptr;

@@ -156,6 +156,20 @@ core::Status checkMovers(const HostMotion& motion) {
     return {};
 }
 
+core::Status checkViewFromObject(const HostMotion& motion) {
+    const std::span<const dmat4> matrices = motion.viewFromObject;
+    SHUTTER_TRY(checkSpan("viewModel.viewFromObject", matrices));
+    if (!matrices.empty() && matrices.size() != motion.keys.size())
+        return makeError(
+            "motion blur: viewModel.viewFromObject holds {}, keys {}",
+            matrices.size(),
+            motion.keys.size()
+        );
+    for (size_t k = 0; k < matrices.size(); ++k)
+        SHUTTER_TRY(checkView(fmt::format("viewModel.viewFromObject[{}]", k), matrices[k]));
+    return {};
+}
+
 core::Status checkViewModelRows(const HostMotion& motion) {
     SHUTTER_TRY(checkSpan("viewModelRows", motion.viewModelRows));
     std::vector<bool> isMover(motion.rowCount);
@@ -280,6 +294,7 @@ core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame)
         );
     SHUTTER_TRY(checkMovers(motion));
     SHUTTER_TRY(checkViewModelRows(motion));
+    SHUTTER_TRY(checkViewFromObject(motion));
     SHUTTER_TRY(checkLens(motion));
     SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));
     if (!motion.rowIds.empty() && motion.rowIds.size() != motion.rowCount)

@@ -8,6 +8,7 @@
 #include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 #include "modules/motion_blur/embedding/pixel_pass.h"
+#include "shaders/motion_blur/prepare.glsl"
 
 #include <cmath>
 
@@ -30,9 +31,21 @@ uint32_t bitOf(uint32_t panel) {
     return 1u << panel;
 }
 
-/// Rows of the map from picture space to the world, whose origin is moved to within two metres of
-/// the camera: floats keep cells of a metre apart then wherever in the world the camera is.
+/// Side of the world's cells: a metre, or what is as far from the camera in a host's own unit of
+/// length, which the near plane shows.
+double chooseCell(const HostDepth& depth, const shader::PrepareTable& table) {
+    if (depth.isLinear)
+        return 1.0;
+    const float nearest = shader::metresOfDepth(table, depth.skyValue == 0.0f ? 1.0f : 0.0f);
+    if (nearest >= shader::kSkyDepth)
+        return 1.0;
+    return std::pow(10.0, std::round(std::log10(10.0 * double(nearest))));
+}
+
+/// Rows of the map from picture space to the world in cells, whose origin is moved to within two of
+/// the camera: floats keep cells apart then wherever in the world the camera is.
 void setWorld(const HostInputs& inputs, shader::OverlayTable& table) {
+    const double cell = chooseCell(inputs.convention.depth, table.prepare);
     const HostCameras& cameras = inputs.convention.cameras;
     const auto camera = normalize(
         HostCameraKey{0.0, cameras.viewFromWorld, cameras.clipFromView}, cameras.aheadIsPlusZ
@@ -41,12 +54,12 @@ void setWorld(const HostInputs& inputs, shader::OverlayTable& table) {
     const dmat4 view = glm::inverse(camera->viewFromWorld);
     dmat4 near = view;
     for (int axis = 0; axis < 3; ++axis)
-        near[3][axis] = view[3][axis] - 2.0 * std::floor(view[3][axis] / 2.0);
+        near[3][axis] = view[3][axis] - 2.0 * cell * std::floor(view[3][axis] / (2.0 * cell));
     const dmat4 world =
         near * glm::inverse(math::pictureFromView(camera->clipFromView, sizePx, cameras.jitterPx));
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column)
-            table.worldFromPicture[row][column] = float(world[column][row]);
+            table.worldFromPicture[row][column] = float(world[column][row] / cell);
 }
 
 } // namespace

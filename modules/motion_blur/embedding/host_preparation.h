@@ -8,6 +8,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/embedding/host_convention.h"
+#include "modules/motion_blur/embedding/host_transfer.h"
 
 #include <cstdint>
 
@@ -28,9 +29,13 @@ class HostPreparation {
         VkExtent2D picture
     ) const;
 
-    /// RGBA16F of the part of `image` that is used.
+    /// RGBA16F of the part of `image` that is used, as light.
     [[nodiscard]] graph::ImageHandle addColor(
-        graph::Graph& graph, graph::ImageHandle image, const HostImage& given, VkExtent2D picture
+        graph::Graph& graph,
+        graph::ImageHandle image,
+        const HostImage& given,
+        const HostTransfer& transfer,
+        VkExtent2D picture
     ) const;
     /// The same for normals.
     [[nodiscard]] graph::ImageHandle addNormal(
@@ -47,6 +52,16 @@ class HostPreparation {
     /// R32_UINT of one id for all that is not the sky. \param motionDepth as the effect reads it
     [[nodiscard]] graph::ImageHandle
     addWorldIds(graph::Graph& graph, graph::ImageHandle motionDepth, VkExtent2D picture) const;
+    /// `ids` as the effect reads them, with `row` at the pixels of HostConvention::viewModel.
+    /// \param table as of addMotionDepth()
+    [[nodiscard]] graph::ImageHandle addViewModel(
+        graph::Graph& graph,
+        graph::ImageHandle ids,
+        graph::ImageHandle depth,
+        VkDeviceAddress table,
+        uint32_t row,
+        VkExtent2D picture
+    ) const;
     /// RG32UI of packWay()s (common/pixel_way.glsl) of ShutterBlurInputs::deformedMotion.
     [[nodiscard]] graph::ImageHandle addWays(
         graph::Graph& graph,
@@ -56,26 +71,38 @@ class HostPreparation {
         VkExtent2D picture
     ) const;
     /// Writes the picture into the part of the host's image that is used, and returns that image.
-    /// \param format RGBA16F, RGBA32F or B10G11R11
     [[nodiscard]] graph::ImageHandle addDelivery(
         graph::Graph& graph,
         graph::ImageHandle picture,
         graph::ImageHandle image,
         VkFormat format,
+        const HostTransfer& transfer,
         VkOffset2D offset
     ) const;
 
   private:
+    /// The same for formats that are copied into, by packingOf().
+    [[nodiscard]] graph::ImageHandle addCopy(
+        graph::Graph& graph,
+        graph::ImageHandle picture,
+        graph::ImageHandle image,
+        const shader::Transfer& transfer,
+        uint32_t packing,
+        VkOffset2D offset
+    ) const;
+
     VkSampler mSampler;
     gpu::LazyPipeline mMotion;
     gpu::LazyPipeline mColor;
     gpu::LazyPipeline mNormal;
     gpu::LazyPipeline mIds;
     gpu::LazyPipeline mWorldIds;
+    gpu::LazyPipeline mViewModel;
     gpu::LazyPipeline mWays;
     gpu::LazyPipeline mDeliverHalf;
     gpu::LazyPipeline mDeliverFloat;
     gpu::LazyPipeline mDeliverPacked;
+    gpu::LazyPipeline mDeliverWords;
 };
 
 } // namespace shutter::motion_blur

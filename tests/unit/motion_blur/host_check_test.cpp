@@ -290,6 +290,13 @@ HostInputs makeInputs(const dmat4& view, const dmat4& viewBefore) {
     return inputs;
 }
 
+/// Near at 0, infinity at 1.
+dmat4 forwardDepth(dmat4 clipFromView) {
+    clipFromView[2].z = -1.0;
+    clipFromView[3].z = -clipFromView[3].z;
+    return clipFromView;
+}
+
 /// Where a point in front of the camera is seen, pixels, and how far it is.
 glm::vec3 see(const HostInputs& inputs, const dmat4& view, const dvec3& point) {
     const dvec4 inView = view * dvec4(point, 1.0);
@@ -401,6 +408,26 @@ TEST(HostOverlay, CellsAreStaticInTheWorldAndAMetreWide) {
         shader::colorOfWorld(makeOverlayTable(inputs, {}), {1.0f, 1.0f}, shader::kSkyDepth),
         glm::vec3(0.0f)
     );
+}
+
+TEST(HostOverlay, CellsHaveASizeThatTheNearPlaneShowsWhereAnotherUnitIsUsed) {
+    // A unit of 2.5 cm: the near plane is at 4, a cell 100 wide.
+    HostInputs inputs = makeInputs(dmat4(1.0), dmat4(1.0));
+    const auto show = [&](double x) {
+        return shader::colorOfWorld(
+            makeOverlayTable(inputs, {}),
+            glm::vec2(see(inputs, dmat4(1.0), {x, 10.0, -250.0})),
+            250.0f
+        );
+    };
+    for (const bool isReversed : {true, false}) {
+        inputs.convention.cameras.clipFromView =
+            isReversed ? math::clipFromViewPerspective(0.9, 2.0, 4.0)
+                       : forwardDepth(math::clipFromViewPerspective(0.9, 2.0, 4.0));
+        inputs.convention.depth.skyValue = isReversed ? 0.0f : 1.0f;
+        EXPECT_EQ(show(20.0), show(80.0));
+        EXPECT_NE(show(20.0), show(120.0));
+    }
 }
 
 TEST(HostOverlay, NonFiniteValuesAreMagenta) {

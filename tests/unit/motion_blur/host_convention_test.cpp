@@ -122,6 +122,39 @@ TEST(HostConvention, RawDepthOfEachProjectionIsMetres) {
     }
 }
 
+TEST(HostConvention, AViewModelsDepthIsDecodedByItsOwnProjection) {
+    // Forward depth: the weapon below 0.25, the world above.
+    const auto intoRange = [](const dmat4& clipFromView, double least, double most) {
+        dmat4 range(1.0);
+        range[2].z = most - least;
+        range[3].z = least;
+        return range * clipFromView;
+    };
+    const dmat4 weapon = intoRange(math::clipFromViewPerspective(0.6, 2.0, 0.01), 0.0, 0.25);
+    const dmat4 world = intoRange(math::clipFromViewPerspective(0.9, 2.0, kNear), 0.25, 1.0);
+    HostConvention convention = makeConvention({"", world});
+    convention.depth.skyValue = 0.25f;
+    convention.viewModel = {.depthMin = 0.0f, .depthMax = 0.25f, .clipFromView = weapon};
+    ASSERT_TRUE(checkConvention(convention, kPicture).ok());
+    const shader::PrepareTable table = makePrepareTable(convention, kPicture);
+    const auto valueOf = [](const dmat4& clipFromView, double metres) {
+        return float(project(clipFromView, {0.0, 0.0, -metres}).z);
+    };
+    EXPECT_NEAR(shader::metresOfDepth(table, valueOf(weapon, 0.4)), 0.4f, 1e-4f);
+    EXPECT_TRUE(shader::isViewModel(table, valueOf(weapon, 0.4)));
+    EXPECT_NEAR(shader::metresOfDepth(table, valueOf(world, 7.0)), 7.0f, 1e-2f);
+    EXPECT_FALSE(shader::isViewModel(table, valueOf(world, 7.0)));
+    EXPECT_FALSE(shader::isViewModel(table, 0.25f)) << "the sky";
+    EXPECT_FALSE(shader::isViewModel(table, kNaN));
+    convention.viewModel.depthMin = 0.3f;
+    EXPECT_FALSE(checkConvention(convention, kPicture).ok()) << "the range falls";
+    convention.viewModel = {.depthMax = kInfinity};
+    EXPECT_FALSE(checkConvention(convention, kPicture).ok());
+    convention.viewModel = {
+        .depthMax = 0.25f, .clipFromView = math::clipFromViewOrthographic(6.0, 3.0, 0.1, 100.0)};
+    EXPECT_FALSE(checkConvention(convention, kPicture).ok()) << "another kind of projection";
+}
+
 TEST(HostConvention, TheSkyIsKnownByItsValueAndAnInvalidDepthIsTheSky) {
     HostConvention convention = makeConvention({"", forward()});
     convention.depth.skyValue = 1.0f;
@@ -158,8 +191,9 @@ TEST(HostConvention, TheCamerasPartComesFromDepth) {
                 const dvec3 now = project(projection.clipFromView, point);
                 const dvec3 before = project(projection.clipFromView * viewBefore(), point);
                 const glm::vec2 place(now.x - jitter.x, now.y - jitter.y);
-                const glm::vec2 motion =
-                    shader::preparedMotion(table, place, glm::vec2(0.0f), float(metres), 1.0f);
+                const glm::vec2 motion = shader::preparedMotion(
+                    table, place, glm::vec2(0.0f), float(metres), false, 1.0f
+                );
                 EXPECT_NEAR(motion.x, now.x - before.x, 1.0e-3);
                 EXPECT_NEAR(motion.y, now.y - before.y, 1.0e-3);
             }
@@ -176,8 +210,9 @@ TEST(HostConvention, TheSkyMovesAsTheCameraTurns) {
     const dvec3 now = project(projection.clipFromView, direction);
     const dvec3 before = project(projection.clipFromView * viewBefore(), direction);
     // Whatever the image holds there.
-    const glm::vec2 motion =
-        shader::preparedMotion(table, {now.x, now.y}, {77.0f, 5.0f}, shader::kSkyDepth, 1.0f);
+    const glm::vec2 motion = shader::preparedMotion(
+        table, {now.x, now.y}, {77.0f, 5.0f}, shader::kSkyDepth, false, 1.0f
+    );
     EXPECT_NEAR(motion.x, now.x - before.x, 1.0e-3);
     EXPECT_NEAR(motion.y, now.y - before.y, 1.0e-3);
     convention = makeConvention({"", math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar)});
@@ -188,6 +223,7 @@ TEST(HostConvention, TheSkyMovesAsTheCameraTurns) {
             {9.0f, 9.0f},
             {77.0f, 5.0f},
             shader::kSkyDepth,
+            false,
             1.0f
         ),
         glm::vec2(0.0f)
@@ -203,7 +239,7 @@ TEST(HostConvention, PointsFromBehindTheCameraHaveFiniteMotion) {
     const glm::vec2 motion = shader::motionOfCamera(table, {150.0f, 50.0f}, 2.0f);
     EXPECT_LT(motion.x, -1000.0f) << "towards the middle, from far outside";
     EXPECT_TRUE(std::isfinite(motion.x) && std::isfinite(motion.y));
-    const glm::vec2 stored = shader::preparedMotion(table, {150.0f, 50.0f}, {}, 2.0f, 1.0f);
+    const glm::vec2 stored = shader::preparedMotion(table, {150.0f, 50.0f}, {}, 2.0f, false, 1.0f);
     EXPECT_LE(glm::length(stored), shader::kMaxMotionPx * 1.001f);
 }
 
@@ -215,7 +251,7 @@ TEST(HostConvention, VectorsAreTurnedScaledAndFreedOfJitter) {
     convention.vectors.pixelsPerUnit = {-200.0f, 50.0f}; // to before; x in uv, y in NDC, up
     const auto prepare = [&](const glm::vec2& vector, float blurScale = 1.0f) {
         return shader::preparedMotion(
-            makePrepareTable(convention, kPicture), {10.0f, 10.0f}, vector, 3.0f, blurScale
+            makePrepareTable(convention, kPicture), {10.0f, 10.0f}, vector, 3.0f, false, blurScale
         );
     };
     EXPECT_EQ(prepare({-0.1f, 0.2f}), glm::vec2(10.0f, 5.0f));
@@ -251,7 +287,7 @@ TEST(HostConvention, CameraAndObjectsHaveScalesOfTheirOwn) {
         convention.scales.object = objectScale;
         const glm::vec2 vector = haveCamera ? camera + object : object;
         return shader::preparedMotion(
-            makePrepareTable(convention, kPicture), place, vector, 4.0f, 1.0f
+            makePrepareTable(convention, kPicture), place, vector, 4.0f, false, 1.0f
         );
     };
     for (const bool haveCamera : {true, false}) {
@@ -272,7 +308,7 @@ TEST(HostConvention, AnInvalidVectorIsNoMotion) {
         const shader::PrepareTable table = makePrepareTable(convention, kPicture);
         for (const float value : {kNaN, kInfinity, -kInfinity, 3.0e38f}) {
             const glm::vec2 motion =
-                shader::preparedMotion(table, {5.0f, 5.0f}, {value, 1.0f}, 2.0f, 1.0f);
+                shader::preparedMotion(table, {5.0f, 5.0f}, {value, 1.0f}, 2.0f, false, 1.0f);
             EXPECT_TRUE(std::isfinite(motion.x) && std::isfinite(motion.y)) << value;
             EXPECT_LE(glm::length(motion), shader::kMaxMotionPx * 1.001f) << value;
         }

@@ -114,6 +114,8 @@ TEST(CStructures, StructuresInArraysAndNestedOnesNeverGrow) {
     EXPECT_EQ(sizeof(ShutterBlurImage), 96u);
     EXPECT_EQ(sizeof(ShutterBlurCameras), 552u);
     EXPECT_EQ(sizeof(ShutterBlurRevealTarget), 16u);
+    EXPECT_EQ(sizeof(ShutterBlurViewModel), 144u);
+    EXPECT_EQ(sizeof(ShutterBlurEntity), 32u);
 }
 
 #define EXPECT_IN_PLACE(type, field, offset)                                                       \

@@ -292,6 +292,53 @@ TEST_F(HostInstantsTest, AViewModelStaysWhereItIsInThePictureAndHasNoHistory) {
     EXPECT_EQ(compute(&last).layers.last->movers.at(2), shader::kNoMover) << "it is static now";
 }
 
+TEST_F(HostInstantsTest, AViewModelThatMovesFollowsItsPosesByItsOwnProjection) {
+    // As seen by a lens of its own, in a part of the range of depth.
+    const math::dmat4 own = math::clipFromViewPerspective(0.6, 2.0, 0.02);
+    math::dmat4 range(1.0);
+    range[2].z = 0.25;
+    range[3].z = 0.75;
+    motion.hasViewModel = true;
+    motion.viewModelProjection = range * own;
+    const auto poseAt = [](double seconds) {
+        return glm::translate(
+            math::dmat4(1.0), math::dvec3(0.1 * seconds, 0.05, -0.6 - 0.1 * seconds)
+        );
+    };
+    std::vector<math::dmat4> poses;
+    for (const HostCameraKey& key : keys)
+        poses.push_back(poseAt(openSeconds + key.time));
+    motion.viewFromObject = poses;
+    const auto see = [&](double seconds) {
+        const dvec4 inView = poseAt(seconds) * dvec4(0.02, -0.03, 0.01, 1.0);
+        const dvec4 clip = own * inView;
+        return Seen{
+            (math::dvec2(clip) / clip.w * 0.5 + 0.5) * math::dvec2(frame.sizePx), -inView.z};
+    };
+    const uint32_t row = motion.rowCount; // one more
+    const HostInstants made = compute();
+    for (uint32_t i = 0; i < kInstants; ++i) {
+        const auto& found =
+            made.layers.raster.motions.at(made.layers.raster.movers.at(row) * kInstants + i);
+        const Seen seen = see((i + 0.5) / kInstants);
+        const vec3 there = apply(found.instantFromRaster, see(1.0));
+        EXPECT_NEAR(there.x, seen.at.x, 2e-3) << i;
+        EXPECT_NEAR(there.y, seen.at.y, 2e-3) << i;
+        EXPECT_NEAR(there.z, seen.depth, 1e-5) << i;
+    }
+    // It has no history, and no other row is mistaken for it where the host has more.
+    const HostRaster last = made.raster;
+    nextFrame();
+    motion.rowCount = row + 1;
+    EXPECT_EQ(compute(&last).layers.last->movers.at(row), shader::kNoMover);
+    EXPECT_EQ(compute(&last).layers.last->rasterRows.at(row), shader::kNoRasterRow);
+    motion.objectScale = 0.0;
+    const auto& fixed = compute().layers.raster;
+    const vec3 there =
+        apply(fixed.motions.at(fixed.movers.at(row + 1) * kInstants).instantFromRaster, see(1.0));
+    EXPECT_NEAR(there.x, see(1.0).at.x, 1e-4);
+}
+
 TEST_F(HostInstantsTest, ALensDisplacesByItsPlacesWhatIsOutOfFocus) {
     motion.lens = {.radius = 0.02, .focusDistance = 4.0, .squeeze = 2.0};
     const HostInstants made = compute();

@@ -66,6 +66,7 @@ CheckPoint makePoint(
     point.place = dvec2(pixel) + 0.5;
     point.motion = dvec2(sample.vector) * dvec2(table.pixelsPerUnit) - dvec2(table.jitterPx);
     const float depth = declared.flipsDepth ? 1.0f - sample.depth : sample.depth;
+    point.stored = sample.depth;
     point.metres = shader::metresOfDepth(table, depth);
     point.isSky = point.metres >= shader::kSkyDepth;
     point.id = sample.id;
@@ -145,7 +146,15 @@ std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& 
     }
     std::vector<CheckPoint> points;
     points.reserve(shader::kCheckSamples);
+    // No camera explains what follows it.
+    const auto isOwn = [&](const shader::CheckSample& sample) {
+        const auto& rows = declared.viewModelRows;
+        return shader::isViewModel(table, sample.depth) ||
+               (declared.hasIds && std::find(rows.begin(), rows.end(), sample.id) != rows.end());
+    };
     for (uint32_t i = 0; i < shader::kCheckSamples; ++i) {
+        if (isOwn(frame.totals.samples[i]))
+            continue;
         const glm::uvec2 cell(i % shader::kCheckAcross, i / shader::kCheckAcross);
         const CheckPoint point = makePoint(
             declared,
@@ -262,6 +271,8 @@ std::vector<Finding> checkFrame(CheckedFrame& now, const CheckedFrame* last) {
         );
     if (isCut || isCameraWrong)
         return findings;
+    if (last)
+        checkViewModel(now, *last, findings);
     checkMovers(now, last, findings);
     checkDeformed(now, findings);
     checkUnexplained(now, findings);

@@ -57,7 +57,8 @@ struct CheckFacts {
     std::vector<Mover> movers;
     std::vector<glm::dmat4> matrices; ///< world from object
     std::vector<uint64_t> rowIds;     ///< by row; empty: the row is the id
-    bool wantsHistory = false;        ///< MotionBlurSettings::history
+    std::vector<uint32_t> viewModelRows;
+    bool wantsHistory = false; ///< MotionBlurSettings::history
     bool followsLast = false;
     int64_t frameNumber = 0;
     uint32_t view = 0;
@@ -98,6 +99,7 @@ enum class CheckKind : uint8_t {
     CameraJump,
     Keys,
     HistoryUnused,
+    ViewModel,
     Unexplained,
     Count
 };
@@ -150,6 +152,10 @@ void checkReprojection(
 );
 /// Camera keys against the cameras of both frames and the exposure's share.
 void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
+/// Parts of depth that follow the camera, against the last frame.
+void checkViewModel(
+    const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
+);
 /// Movers' matrices against the vectors of their pixels, or without vectors against the last frame.
 void checkMovers(const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 /// Where deforming movers' pixels go against their vectors.
@@ -163,6 +169,7 @@ struct CheckPoint {
     glm::dvec2 place{0.0};  ///< pixels of the picture
     glm::dvec2 motion{0.0}; ///< pixels, by `pixelsPerUnit` and without declared jitter
     glm::dvec2 camera{0.0}; ///< implied by the cameras for static surfaces
+    float stored = 0.0f; ///< depth, as it is in the image
     float metres = 0.0f;
     /// Depth of static surfaces from the previous frame's camera; 0 or less: behind it.
     float metresBefore = 0.0f;

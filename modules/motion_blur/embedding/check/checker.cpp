@@ -284,7 +284,13 @@ void HostChecker::finish(uint32_t frame) {
     mNow->unusedHistory = 0;
     ++mEvaluated;
     std::unique_ptr<CheckedFrame>& last = mLast[mNow->facts.view];
-    const bool isNext = last && mNow->facts.number == last->facts.number + 1;
+    // Numbers that skip or go back are of another frame, unless history says otherwise.
+    const auto follows = [](const CheckFacts& then, const CheckFacts& now) {
+        return now.followsLast || now.frameNumber == then.frameNumber ||
+               now.frameNumber == then.frameNumber + 1;
+    };
+    const bool isNext =
+        last && mNow->facts.number == last->facts.number + 1 && follows(last->facts, mNow->facts);
     for (const Finding& finding : checkFrame(*mNow, isNext ? last.get() : nullptr))
         report(finding);
     std::swap(last, mNow);

@@ -22,6 +22,7 @@ struct MotionBlurSettings;
 /// The host's images in the graph, as they were imported. Invalid: not given.
 struct ImportedInputs {
     graph::ImageHandle color;
+    graph::ImageHandle light;       ///< of `color`, prepared; invalid where that is light already
     graph::ImageHandle motionDepth; ///< the host's own; else the two below
     graph::ImageHandle vectors;
     graph::ImageHandle depth;

@@ -85,6 +85,7 @@ void keepMotion(const HostInputs& inputs, CheckFacts& facts) {
     facts.rowCount = motion.rowCount;
     keepKeys(motion, inputs.rasterTime, facts);
     keepMovers(motion, facts);
+    facts.viewModelRows.assign(motion.viewModelRows.begin(), motion.viewModelRows.end());
     const size_t ids = std::min<size_t>(motion.rowIds.size(), shader::kCheckRows);
     facts.rowIds.assign(motion.rowIds.begin(), motion.rowIds.begin() + std::ptrdiff_t(ids));
 }
@@ -116,6 +117,8 @@ void describeFacts(
     facts.movers.clear();
     facts.matrices.clear();
     facts.rowIds.clear();
+    facts.viewModelRows.clear();
+    facts.convention.viewModel.viewFromObject = {}; // the host's, which is not copied
     if (facts.readsMotion)
         keepMotion(inputs, facts);
 }

@@ -145,7 +145,9 @@ class Reprojection {
                 "the cameras after depth is reversed: cameras.clipFromView has near and far the "
                 "other way round than depth"
             );
-            consider(interpret(true), "the cameras if depth is linear: set depthIsLinear = true");
+            const Declared linear = interpret(true);
+            if (!isFlat(linear.now))
+                consider(linear, "the cameras if depth is linear: set depthIsLinear = true");
             return;
         }
         consider(
@@ -162,6 +164,19 @@ class Reprojection {
                     factor * depth.metresPerUnit
                 )
             );
+    }
+
+    /// Depths are so alike that they agree with any camera, as hardware depth of far surfaces does
+    /// where it is taken for linear.
+    [[nodiscard]] bool isFlat(const CheckFacts& declared) const {
+        std::vector<float> metres;
+        for (const CheckPoint& point : makePoints(mNow, declared))
+            if (!point.isSky)
+                metres.push_back(point.metres);
+        if (metres.empty())
+            return true;
+        std::sort(metres.begin(), metres.end());
+        return metres[metres.size() * 9 / 10] < 1.1f * metres[metres.size() / 10];
     }
 
     void tryLens() {
