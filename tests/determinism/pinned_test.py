@@ -17,15 +17,16 @@ class Pinned(unittest.TestCase):
     def test_every_shot_has_the_pinned_bits_and_reasons(self):
         with tempfile.TemporaryDirectory(prefix="shutter_pin_") as assets:
             traces.generate(GENERATOR, assets)
+            driver = traces.draw(EXECUTABLE, assets, "sharp")["driver"]
+            pinned = traces.read_pins().get(driver)
+            if pinned is None: # minutes of drawing would tell nothing
+                print(f"skipped: no pictures are pinned for the driver '{driver}'")
+                os._exit(77)
             found = traces.draw_all(EXECUTABLE, assets)
         if traces.DEVICE == "llvmpipe":
             with self.subTest("explanations"):
                 self.assertEqual(traces.write_explanations(found["explained"]),
                                  traces.EXPLANATIONS.read_text(encoding="utf-8"))
-        pinned = traces.read_pins().get(found["driver"])
-        if pinned is None:
-            print(f"skipped: no pictures are pinned for the driver '{found['driver']}'")
-            os._exit(77)
         self.assertEqual(found["pictures"], pinned,
                          "README.md explains how to find the pass that differs")
 
