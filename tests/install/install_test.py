@@ -4,6 +4,7 @@
 their own, and runs them under validation; their pictures must show what they promise."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,7 +19,8 @@ from package import (BUILD, CC, CMAKE, CXX, ROOT, fail, list_symbols, list_words
                      run_validated)
 
 EXAMPLES = ROOT / "game/examples"
-MOST_LINES = {"bare_renderer": 165, "c_host": 150, "deforming_host": 310, "new_effect": 99}
+MOST_LINES = {"bare_renderer": 165, "c_host": 150, "deforming_host": 310, "forward_host": 430,
+              "new_effect": 99}
 SOURCES = {".c", ".cpp", ".h", ".comp", ".frag", ".vert", ".txt"}
 
 
@@ -187,6 +189,20 @@ def check_flag(folder):
         fail(f"{free:.0%} of the flag's free end is blurred, and {held:.0%} of what hardly moves")
 
 
+def check_forward(printed):
+    """`resolved` is at least 3 dB nearer to the mean of the host's own frames than any filter, and
+    the checker is silent."""
+    found = {name: float(value) for name, value in re.findall(r"^(\w+) ([\d.]+) dB$", printed, re.M)}
+    print("forward_host:", found)
+    resolved, sharp = found.pop("resolved"), found.pop("sharp")
+    if len(found) < 6:
+        fail(f"forward_host compares {sorted(found)} alone")
+    if resolved < max(found.values()) + 3.0 or min(found.values()) < sharp + 2.0:
+        fail(f"resolved has {resolved} dB, sharp {sharp}, and filters {found}")
+    if "motion blur" in printed:
+        fail(f"forward_host was reported to:\n{printed}")
+
+
 def has_device(prefix, folder):
     done = subprocess.run([prefix / "bin/shutter", "info", "--devices"], cwd=folder, text=True,
                           capture_output=True, check=False)
@@ -217,6 +233,7 @@ def main():
         check_blur(folder, left=120)
     run_validated([folder / "deforming_host/deforming_host"], folder)
     check_flag(folder)
+    check_forward(run_validated([folder / "forward_host/forward_host"], folder))
     scene = prefix / "share/shutter/assets/vase.glb"
     run_validated([folder / "new_effect/new_effect", scene, "vignette.png"], folder)
     check_vignette(prefix, folder, folder / "vignette.png")
