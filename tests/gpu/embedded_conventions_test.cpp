@@ -513,6 +513,20 @@ TEST_F(EmbeddedConventions, StoredColoursAreBlurredAsLight) {
             }
             EXPECT_GT(changed, 1000u) << "nothing was blurred";
             EXPECT_LT(worst, 0.51 + stored.most / 512.0) << "beyond roundings of half floats";
+            // An output of floats has the host's curve, too.
+            const shader::Transfer encoding =
+                motion_blur::encodingOf(transfer, VK_FORMAT_R16G16B16A16_SFLOAT);
+            const image::Image encoded = draw(inputs);
+            double off = 0.0;
+            for (size_t i = 0; i < encoded.pixels.size(); ++i)
+                if (i % 4 != 3)
+                    off = std::max(
+                        off,
+                        std::abs(double(
+                            encoded.pixels[i] - shader::valueOfLight(encoding, own.pixels[i])
+                        ))
+                    );
+            EXPECT_LT(off, 0.003);
             inputs.isOff = true;
             inputs.blended = make(
                 VK_FORMAT_R16G16B16A16_SFLOAT, std::vector<uint64_t>(kConventionPixels, 0)

@@ -21,7 +21,6 @@ using math::LayerBuilder;
 using math::LayerTables;
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
-const dmat4 kUnmoved(1.0);
 /// Within which a key is at the raster instant: hosts may compute the two apart.
 constexpr double kSameTime = 1.0e-6;
 
@@ -181,12 +180,11 @@ class Builder {
     /// The row of the view model that depth names, which the camera does not move.
     void addViewModel(LayerBuilder& layer) const {
         const std::span<const dmat4> keys = mMotion.viewFromObject;
-        const bool moves = !keys.empty() && mMotion.objectScale != 0.0;
-        const MoverWay way(moves ? keys : std::span(&kUnmoved, 1));
-        if (!moves || way.staysAt(keys[mRasterKey])) {
+        if (keys.empty()) {
             layer.addFixed(mMotion.rowCount);
             return;
         }
+        const MoverWay way(keys);
         const dmat4& own = mMotion.viewModelProjection;
         const dmat4& clipFromView = own == dmat4(0.0) ? mMotion.keys[mRasterKey].clipFromView : own;
         const auto project = [&](const dmat4& viewFromObject) {

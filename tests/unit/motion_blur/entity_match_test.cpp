@@ -21,6 +21,11 @@ TEST(EntityMatch, EachEntityFindsTheNearestOfItsModelOnce) {
     const Entities now{{1, {1.2, 0, 0}}, {1, {0.4, 0, 0}}, {2, {0.1, 0, 0}}, {3, {0, 0, 0}}};
     EXPECT_EQ(matchEntities(before, now, 2.0), (Indices{1, 0, 2, kNew}));
     EXPECT_EQ(matchEntities(before, now, 0.5), (Indices{kNew, 0, 2, kNew})) << "beyond reach";
+    EXPECT_EQ(matchEntities(before, Entities{{1, {0, 8, 0}}}, 2.0), (Indices{kNew})) << "in y";
+    EXPECT_EQ(
+        matchEntities(Entities{{1, {0, 0, 0}}}, Entities{{1, {0.2, 0, 0}}, {1, {0.1, 0, 0}}}, 2.0),
+        (Indices{kNew, 0})
+    ) << "a second one beside it";
     EXPECT_EQ(matchEntities({}, now, 2.0), (Indices(4, kNew)));
     EXPECT_TRUE(matchEntities(before, {}, 2.0).empty());
 }
