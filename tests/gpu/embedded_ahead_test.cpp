@@ -51,6 +51,7 @@ struct Host : test::HostFrame {
     Host(gpu::Device& device, uint32_t w, uint32_t h)
         : HostFrame(device, w, h),
           normal(test::makeImage(device, "normal", VK_FORMAT_R16G16B16A16_SFLOAT, w, h)),
+          bytes(test::makeImage(device, "bytes", kBytes, w, h)),
           key{1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, double(w) / h, 0.1)} {}
 
     [[nodiscard]] HostInputs inputs() const {
@@ -81,15 +82,25 @@ struct Host : test::HostFrame {
             in.normal = {};
         }
         in.motion.lens.radius = plan.hasLens ? 0.05 : 0.0;
+        if (plan.colorFormat == kBytes) {
+            in.color = {bytes.handle(), test::kWritten, test::kSampled};
+            in.color.format = kBytes;
+            in.output = {};
+            in.transfer.curve = shader::kTransferSrgb;
+        }
         return in;
     }
 
     void recordClears(VkCommandBuffer commands) const {
         HostFrame::recordClears(commands);
         test::clear(commands, normal, {});
+        test::clear(commands, bytes, {{0.5f, 0.25f, 0.0f, 1.0f}});
     }
 
+    static constexpr VkFormat kBytes = VK_FORMAT_R8G8B8A8_UNORM;
+
     gpu::Image normal;
+    gpu::Image bytes;
     motion_blur::HostCameraKey key;
     motion_blur::HostMover mover{0, {}};
 };
@@ -102,10 +113,11 @@ struct Kind {
     bool draws = false;    ///< over the picture at instants
     bool blends = false;   ///< passes a drawing
     bool hasLens = false;  ///< which is closed in some frames
+    bool isStored = false; ///< colours are bytes in gamma space, blurred in place
     motion_blur::InstantNoise noise = motion_blur::InstantNoise::Off; ///< then more instants
 };
 
-constexpr std::array<Kind, 10> kKinds{
+constexpr std::array<Kind, 11> kKinds{
     {{"gather"},
      {"hybrid"},
      {"resolved"},
@@ -118,14 +130,16 @@ constexpr std::array<Kind, 10> kKinds{
       .with = "a lens and noise",
       .hasLens = true,
       .noise = motion_blur::InstantNoise::Fixed},
-     {.method = "adaptive", .with = "a lens", .hasLens = true}}};
+     {.method = "adaptive", .with = "a lens", .hasLens = true},
+     {.method = "own_velocity", .with = "bytes", .isStored = true}}};
 
 /// Each makes its pipelines anew, for seconds (`adaptive` for half a minute): the one with the
-/// fewest passes and one with many that may have a lens or none; all of them with SHUTTER_ALL.
+/// fewest passes, one with many that may have a lens or none, and one whose colours are prepared
+/// and delivered; all of them with SHUTTER_ALL.
 std::vector<Kind> listKinds() {
     if (test::drawsAll())
         return {kKinds.begin(), kKinds.end()};
-    return {kKinds.front(), kKinds[8]};
+    return {kKinds.front(), kKinds[8], kKinds.back()};
 }
 
 MotionBlurSettings aheadSettings(const char* method) {
@@ -137,6 +151,10 @@ HostPlan planOf(const Kind& kind, uint32_t width, uint32_t height) {
     plan.settings = aheadSettings(kind.method);
     plan.settings.instantNoise = kind.noise;
     plan.hasLens = kind.hasLens;
+    if (kind.isStored) {
+        plan.colorFormat = Host::kBytes;
+        plan.outputFormat = VK_FORMAT_UNDEFINED;
+    }
     if (kind.isStill)
         plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;

@@ -607,6 +607,7 @@ TEST_F(EmbeddedConventions, IdsInAStencilServeResolvedAlsoBesideTheDepthOfTheSam
             "entityId.image is depth.image: format, extent, before and after"
         );
     }
+    convention.depth.image.after = inputs.entityId.after;
     inputs.noEntity = 256;
     test::expectRefusal(
         refuse(inputs, settings), "noEntity is 256, but entityId holds values up to 255"

@@ -697,7 +697,8 @@ typedef struct ShutterBlurPlan {
     VkFormat colorFormat;
     VkFormat outputFormat;   /* UNDEFINED: in place */
     VkFormat entityIdFormat; /* UNDEFINED: no ids */
-    VkBool32 areParts;       /* color and output are parts or layers of larger images */
+    VkBool32 areParts;       /* color and output are parts or layers of larger images, or half
+                              * floats with another transfer than LINEAR */
     VkBool32 hasVectors;     /* vectors and depth of the host's own in place of motionDepth */
     VkBool32 lendsLast;      /* lastColor and those with it */
     uint32_t rowCount;

@@ -285,19 +285,6 @@ core::Status checkIds(const HostInputs& inputs, const Method& method, const Host
         return makeError(
             "motion blur: noEntity is {}, but entityId holds values up to {}", inputs.noEntity, most
         );
-    if (!sharesDepth(inputs))
-        return {};
-    const HostImage& depth = inputs.convention.depth.image;
-    const HostImage& ids = inputs.entityId;
-    const auto isSame = [](const graph::OutsideUse& a, const graph::OutsideUse& b) {
-        return a.layout == b.layout && a.stages == b.stages && a.access == b.access;
-    };
-    if (!holdsStencil(format) || format != depth.format ||
-        extentOf(ids, pictureOf(inputs)).width != extentOf(depth, pictureOf(inputs)).width ||
-        extentOf(ids, pictureOf(inputs)).height != extentOf(depth, pictureOf(inputs)).height ||
-        !isSame(ids.before, depth.before) || !isSame(ids.after, depth.after))
-        return makeError("motion blur: entityId.image is depth.image: format, extent, before and "
-                         "after must be those of depth, which has a stencil");
     return {};
 }
 
@@ -393,10 +380,30 @@ core::Status checkResponsePoints(const HostInputs& inputs) {
     return {};
 }
 
+/// An image of depth and ids has one use before and one after.
+core::Status checkSharedDepth(const HostInputs& inputs) {
+    if (!sharesDepth(inputs))
+        return {};
+    const HostImage& depth = inputs.convention.depth.image;
+    const HostImage& ids = inputs.entityId;
+    const VkExtent2D extent = extentOf(ids, pictureOf(inputs));
+    const VkExtent2D whole = extentOf(depth, pictureOf(inputs));
+    const auto isSame = [](const graph::OutsideUse& a, const graph::OutsideUse& b) {
+        return a.layout == b.layout && a.stages == b.stages && a.access == b.access;
+    };
+    if (holdsStencil(ids.format) && ids.format == depth.format && extent.width == whole.width &&
+        extent.height == whole.height && isSame(ids.before, depth.before) &&
+        isSame(ids.after, depth.after))
+        return {};
+    return makeError("motion blur: entityId.image is depth.image: format, extent, before and "
+                     "after must be those of depth, which has a stencil");
+}
+
 core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     const VkExtent2D picture = pictureOf(inputs);
     SHUTTER_TRY(checkTransfer(inputs.transfer));
     SHUTTER_TRY(checkDistinct(inputs)); // the same image twice may be too small for one of them
+    SHUTTER_TRY(checkSharedDepth(inputs));
     SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
     if (inputs.output.image)
         SHUTTER_TRY(check(inputs.output, outputRule(inputs), picture, host));

@@ -169,7 +169,7 @@ struct CheckPoint {
     glm::dvec2 place{0.0};  ///< pixels of the picture
     glm::dvec2 motion{0.0}; ///< pixels, by `pixelsPerUnit` and without declared jitter
     glm::dvec2 camera{0.0}; ///< implied by the cameras for static surfaces
-    float stored = 0.0f; ///< depth, as it is in the image
+    float stored = 0.0f;    ///< depth, as it is in the image
     float metres = 0.0f;
     /// Depth of static surfaces from the previous frame's camera; 0 or less: behind it.
     float metresBefore = 0.0f;
