@@ -110,7 +110,7 @@ class Image {
 
     [[nodiscard]] VkImage handle() const { return mImage; }
 
-    /// Of the depth where there is one.
+    /// The view of the image; of a format with depth and stencil, of its depth.
     [[nodiscard]] VkImageView view() const { return mView; }
 
     /// Null: the format has no stencil beside its depth.

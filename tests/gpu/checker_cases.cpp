@@ -633,6 +633,11 @@ void listRightMotion(Cases& add) {
     add("movers by exact keys", resolved(keyed({0.0, 1.0})));
     add("movers by exact keys, without vectors", keyedWithoutVectors({0.0, 0.5, 1.0}));
     add("movers in frames of uneven length", resolved(keyed({}))).isUneven = true;
+    add("a sky that no value marks", resolved([](Given& g) {
+            g.hasVectors = g.hasIds = false;
+            g.listed.clear();
+            g.inputs.convention.depth.skyValue = std::nanf("");
+        }));
     add("a weapon that follows the camera, declared by its depth", resolved([](Given& g) {
             g.hasVectors = g.hasIds = false;
             g.listed.clear();

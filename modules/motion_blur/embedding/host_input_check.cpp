@@ -391,7 +391,8 @@ core::Status checkSharedDepth(const HostInputs& inputs) {
     const auto isSame = [](const graph::OutsideUse& a, const graph::OutsideUse& b) {
         return a.layout == b.layout && a.stages == b.stages && a.access == b.access;
     };
-    if (holdsStencil(ids.format) && ids.format == depth.format && extent.width == whole.width &&
+    const bool hasStencil = (gpu::aspectOf(ids.format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
+    if (hasStencil && ids.format == depth.format && extent.width == whole.width &&
         extent.height == whole.height && isSame(ids.before, depth.before) &&
         isSame(ids.after, depth.after))
         return {};
@@ -492,10 +493,6 @@ HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& mover
 
 bool hasViewModel(const HostInputs& inputs) {
     return !inputs.motionDepth.image && inputs.convention.viewModel.isGiven();
-}
-
-bool holdsStencil(VkFormat format) {
-    return (gpu::aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
 }
 
 bool sharesDepth(const HostInputs& inputs) {

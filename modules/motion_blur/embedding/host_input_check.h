@@ -27,8 +27,6 @@ extern const HostImageRule kBlendedRule;
 
 /// The image of ids is the stencil of the one of depth.
 [[nodiscard]] bool sharesDepth(const HostInputs& inputs);
-/// The format holds ids in a stencil.
-[[nodiscard]] bool holdsStencil(VkFormat format);
 
 [[nodiscard]] HostImageRule colorRule(const HostInputs& inputs);
 [[nodiscard]] HostImageRule outputRule(const HostInputs& inputs);

@@ -21,8 +21,8 @@ constexpr double kMinShare = 0.9;    ///< of the nearest samples, that stay
 struct NearSample {
     float metres;
     float stored;
-    bool
-        stays; ///< it is in the last frame where it is in this one, and not where the cameras imply
+    /// The last frame shows it where this one does, and not where the cameras imply.
+    bool stays;
 };
 
 /// Samples of one frame that the last one shows, the nearest first.
@@ -57,14 +57,17 @@ size_t countStaying(const std::vector<NearSample>& samples) {
     return counted;
 }
 
-/// Values of depth that are not the sky's, and yet of no surface before the camera.
+/// Values of hardware depth that lie behind the camera by its projection. What is infinitely far is
+/// not among them: it is sky, whatever skyValue is.
 std::vector<float> findImpossible(const CheckedFrame& now) {
-    const HostDepth& depth = now.facts.convention.depth;
+    const HostConvention& convention = now.facts.convention;
+    if (convention.depth.isLinear)
+        return {};
+    const glm::vec4 k = makePrepareTable(convention, now.facts.picture).depthFromValue;
     std::vector<float> found;
     for (const CheckPoint& point : makePoints(now, now.facts)) {
-        const bool isDeclared =
-            point.stored == depth.skyValue || (depth.isLinear && point.stored > depth.skyValue);
-        if (point.isSky && !isDeclared && std::isfinite(point.stored))
+        const float metres = (k.x + k.y * point.stored) / (k.z + k.w * point.stored);
+        if (point.stored != convention.depth.skyValue && std::isfinite(metres) && metres < 0.0f)
             found.push_back(point.stored);
     }
     return found;
