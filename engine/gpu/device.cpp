@@ -152,6 +152,7 @@ void Device::createLogicalDevice() {
     structure.accelerationStructure = VK_TRUE;
     DeviceFeatures features;
     features.enableNeeded();
+    features.core.features.sampleRateShading = mInfo.interpolatesAnywhere;
     if (hasRays())
         features.v13.pNext = &structure;
 

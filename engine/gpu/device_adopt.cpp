@@ -36,6 +36,7 @@ core::Status Device::adoptHost(const HostDevice& host) {
     mInfo.rayTier = host.rayTier;
     // A separate feature, which the host need not have enabled.
     mInfo.tracesIndirect = mInfo.tracesIndirect && host.tracesIndirect;
+    mInfo.interpolatesAnywhere = false;
     mDevice = host.device;
     mHasDebugUtils = host.hasDebugUtils;
     loadFunctions();

@@ -209,6 +209,9 @@ DeviceInfo describeDevice(VkPhysicalDevice device, VkSurfaceKHR surface) {
     const auto extensions = listExtensions(device);
     info.isPortable = hasExtension(extensions, kPortabilitySubset);
     findRobustness(info, extensions);
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(device, &features);
+    info.interpolatesAnywhere = features.sampleRateShading;
     findRays(info, extensions);
     info.rayTier = chooseTier(info, RayTier::RayQuery);
     return info;

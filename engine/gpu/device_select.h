@@ -36,6 +36,8 @@ struct DeviceInfo {
     uint32_t timestampBits = 0;  ///< of that family's timestamps: how many count
     bool isPortable = false;     ///< it brings Vulkan to another interface (portability subset)
     bool hasRobustness2 = false; ///< accesses past the end of a buffer or image can read as 0
+    bool interpolatesAnywhere =
+        false; ///< shaders may interpolate elsewhere than at a pixel's centre
 };
 
 /// Makes an instance list portability drivers such as MoltenVK, which newer loaders hide by

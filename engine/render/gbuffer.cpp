@@ -118,6 +118,8 @@ Variant variantOf(const extract::SceneLayout::GeometryInfo& info) {
 }
 
 bool maySample(const gpu::Device& device) {
+    if (!device.info().interpolatesAnywhere)
+        return false;
     for (const VkFormat format :
          {kColorFormat, kSampleSurfaceFormat, kSampleNormalFormat, kDepthFormat})
         if (!device.canDrawSamples(format, shader::kSampleCount))

@@ -27,7 +27,7 @@ void main() {
     FrameRef frame = FrameRef(draw.frame);
     MaterialRow material = materialOf(frame, draw.geometry);
     SurfacePoint point = pointOfFragment();
-    vec3 viewDirection = viewDirectionTo(frame, inRelWorldPosition);
+    vec3 viewDirection = viewDirectionTo(frame, point.relWorldPosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
 #ifdef SHUTTER_MASKS_SAMPLES
     uint covered = surface.passing & uint(gl_SampleMaskIn[0]);
@@ -38,7 +38,7 @@ void main() {
 #endif
 
     vec3 color = shadeSurface(
-        frame, material, surface, inRelWorldPosition, viewDirection, lightsAtRaster(frame),
+        frame, material, surface, point.relWorldPosition, viewDirection, lightsAtRaster(frame),
         ShadowSource(true, 0u, draw.entity, moversOfTile(frame, gl_FragCoord.xy))
     );
     vec4 blended = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
@@ -55,7 +55,7 @@ void main() {
             inClipOpen, inClipClose, visible, frame.value.forward.w, frame.value.sizePx
         );
     }
-    float depth = dot(inRelWorldPosition, frame.value.forward.xyz);
+    float depth = dot(point.relWorldPosition, frame.value.forward.xyz);
     writeTargets(blended, surface.normal, motion, depth, draw.entity);
 }
 

@@ -14,6 +14,7 @@ layout(location = 3) out vec4 outUv;
 layout(location = 4) out vec4 outColor;
 layout(location = 5) out vec3 outClipOpen;  // x, y, w
 layout(location = 6) out vec3 outClipClose; // x, y, w
+layout(location = 7) out float outOne;      // see pointOfFragment()
 
 void main() {
     FrameRef frame = FrameRef(draw.frame);
@@ -43,5 +44,6 @@ void main() {
         transformDirection(placement, vertex.tangent.xyz), vertex.tangent.w * placement.handedness
     );
     outUv = vec4(vertex.positionU0.w, vertex.normalV0.w, vertex.uv1);
+    outOne = 1.0f;
     outColor = unpackColor(vertex.color);
 }
