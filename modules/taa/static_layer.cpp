@@ -69,6 +69,8 @@ StaticLayer::Record StaticLayer::makeRecord(const render::ExtractContext& contex
     record.flags = frame.constants.flags;
     record.shadows = context.view.shadows;
     record.shadowRevision = context.shadowRevision;
+    record.mayReach =
+        (frame.constants.flags & shader::kFrameShadows) != 0 || !frame.blended.still.empty();
     return record;
 }
 
@@ -78,6 +80,7 @@ void StaticLayer::compare(const Record& now, const Record& last) {
         now.flags != last.flags || now.raster.layer != last.raster.layer ||
         !isSame(now.shadows, last.shadows) || now.shadowRevision != last.shadowRevision ||
         !hasSameBytes(now.lights, last.lights);
+    bool changes = false; // something came, went, started or stopped
     const std::vector<uint32_t> nowRows = extract::findRows(last.raster, now.raster.entities);
     const std::vector<uint32_t> nowShapes = listShapes(now.raster);
     const std::vector<uint32_t> lastShapes = listShapes(last.raster);
@@ -98,12 +101,14 @@ void StaticLayer::compare(const Record& now, const Record& last) {
             mNowRows[row] = current;
             mStates[current] = shader::kStaticRow;
         } else {
-            mFrame.mayDiffer = true;
+            changes = true;
         }
     }
     mNowRows.back() = uint32_t(now.rests.size()); // the sky's
-    mFrame.mayDiffer = mFrame.mayDiffer ||
-                       std::find(mStates.begin(), mStates.end(), shader::kNewRow) != mStates.end();
+    changes =
+        changes || std::find(mStates.begin(), mStates.end(), shader::kNewRow) != mStates.end();
+    // Otherwise it shows in pixels of its own alone, which have no history then.
+    mFrame.mayDiffer = mFrame.mayDiffer || (changes && (now.mayReach || last.mayReach));
 }
 
 void StaticLayer::extract(const render::ExtractContext& context) {

@@ -61,6 +61,7 @@ class StaticLayer {
         extract::ShadowSettings shadows;
         uint64_t shadowRevision = 0; ///< ExtractContext's
         bool hasPassers = false;     ///< a moving blended surface lies over static ones
+        bool mayReach = false;       ///< an entity may show in pixels that show another
     };
 
     [[nodiscard]] static Record makeRecord(const render::ExtractContext& context);

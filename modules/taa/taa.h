@@ -33,8 +33,8 @@ makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 /// frames in which it was visible; then it does not change, even while something moves in front.
 /// Sums do not depend on the frames' order, so a sequence that resumes has the same bits where
 /// nothing has moved in front or changed since it settled. In frames in which static surfaces may
-/// differ (another light, an entity that appears, disappears, starts or stops, particles,
-/// moving glass, tiles that a moving shadow may reach) it is clipped to the variance of the
+/// differ (another light, with shadows or glass an entity that appears, disappears, starts or stops,
+/// particles, moving glass, tiles that a moving shadow may reach) it is clipped to the variance of the
 /// neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as Karis
 /// 2014 ("High Quality Temporal Supersampling"). Movers have one sample at the pixel's centre and
 /// no history: motion blur smooths it, and reprojected history is farther from the mean over the

@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push {
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform usampler2D uEntityId;
 layout(binding = 2, rgba16f) uniform writeonly image2D uPicture;
-layout(binding = 3, rgba32i) uniform iimage2D uKept; // Kept: sum, packCounts()
+layout(binding = 3, rgba32i) uniform iimage2D uKept; // packSums(), packCounts()
 layout(binding = 4, r32ui) uniform uimage2D uKeptRow;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RowTable {
@@ -73,7 +73,7 @@ Neighbourhood lookAround(ivec2 pixel) {
     return around;
 }
 
-const Kept kNothing = Kept(ivec3(0), 0.0f, 0u);
+const Kept kNothing = Kept(ivec3(0), 0.0f, 0u, vec3(0.0f));
 
 /// History of the pixel.
 struct Before {
@@ -113,21 +113,21 @@ void main() {
         row = before.row;
     } else {
         if (state == kNewRow || before.row == kNoRow) kept = kNothing;
-        bool settles = kept.count < float(kPlaceCount - 1u);
+        bool settles = countOf(kept) < float(kPlaceCount - 1u);
         Neighbourhood around = kNowhere;
         if (settles || isDoubted) around = lookAround(pixel);
         kept = addFrame(compress(storableColor(color)), kept, isDoubted, around.moments);
         vec3 mean = meanOf(kept);
         // Few samples are seen along with those around them: one alone would flicker.
         if (settles)
-            mean = max(mix(mean, rgbFromYcocg(around.middle), 1.0f / kept.count), vec3(0.0f));
+            mean = max(mix(mean, rgbFromYcocg(around.middle), 1.0f / countOf(kept)), vec3(0.0f));
         color = storableColor(expand(mean));
         isDoubted = mayDiffer;
     }
     imageStore(uPicture, pixel, vec4(color, current.a));
     // A settled picture writes nothing.
     if (kept != before.kept)
-        imageStore(uKept, pixel, ivec4(kept.sum, packCounts(kept)));
+        imageStore(uKept, pixel, ivec4(packSums(kept), packCounts(kept)));
     uint keptRow = row == kNoRow ? kNoRow : row | (isDoubted ? kDoubted : 0u);
     if (params.hasLast == 0u || keptRow != before.stored)
         imageStore(uKeptRow, pixel, uvec4(keptRow, 0u, 0u, 0u));

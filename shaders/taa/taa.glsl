@@ -88,26 +88,54 @@ SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
 /// Steps of 1 in Kept::sum: finer than a half float's where a display can distinguish colours.
 SHUTTER_CONST float kSteps = 16777216.0f;
 
-/// A pixel's history. Whole numbers, so that their sum does not depend on the order of frames.
+/// A pixel's history. Sums are whole numbers, so that they do not depend on the order of frames.
 struct Kept {
     ivec3 sum;   // of compressed colours, in steps of 1 / kSteps
-    float count; // of frames in the sum, up to below kPlaceCount + 1; 0: none
-    uint left;   // frames that the mean still follows, because it was in doubt
+    float count; // of frames in the sum, or in what fades, up to below kPlaceCount + 1; 0: none
+    uint left;   // kPlaceCount: the mean was in doubt; fewer: frames until it has faded; 0: it is sure
+    vec3 fading; // mean, compressed, in whose place the sum comes
 };
 
-/// Frames in which a mean adapts after a possible change: 2 % of the outdated colour remain then.
-SHUTTER_CONST uint kFollowedFrames = 63u;
+SHUTTER_INLINE bool fades(Kept kept) {
+    return kept.left > 0u && kept.left < kPlaceCount;
+}
 
-/// In one word, whose last bits are a fraction of the count. \param count up to 255
+// A sum that replaces what fades shares its words with it: 21 bits, and 11 for the square root.
+SHUTTER_CONST uint kSumBits = 21u;
+SHUTTER_CONST uint kDroppedBits = 8u; // of a sum below 2 * kPlaceCount * kSteps
+SHUTTER_CONST float kMostRoot = 2047.0f;
+
+SHUTTER_INLINE int packSum(int sum, float fading) {
+    uint rounded = (uint(sum) + (1u << (kDroppedBits - 1u))) >> kDroppedBits;
+    uint root = uint(sqrt(0.5f * fading) * kMostRoot + 0.5f);
+    return int(min(rounded, (1u << kSumBits) - 1u) | root << kSumBits);
+}
+
+SHUTTER_INLINE ivec3 packSums(Kept kept) {
+    if (!fades(kept)) return kept.sum;
+    return ivec3(
+        packSum(kept.sum.x, kept.fading.x), packSum(kept.sum.y, kept.fading.y),
+        packSum(kept.sum.z, kept.fading.z)
+    );
+}
+
+/// In one word, whose last bits are a fraction of the count.
 SHUTTER_INLINE int packCounts(Kept kept) {
     return int(uint(kept.count * 256.0f + 0.5f) | kept.left << 16u);
 }
 
-SHUTTER_INLINE Kept unpackKept(ivec3 sum, int counts) {
+SHUTTER_INLINE Kept unpackKept(ivec3 sums, int counts) {
     Kept kept;
-    kept.sum = sum;
+    kept.sum = sums;
     kept.count = float(uint(counts) & 0xFFFFu) / 256.0f;
     kept.left = uint(counts) >> 16u;
+    kept.fading = vec3(0.0f);
+    if (fades(kept)) {
+        uvec3 words = uvec3(sums);
+        kept.sum = ivec3((words & ((1u << kSumBits) - 1u)) << kDroppedBits);
+        vec3 roots = vec3(words >> kSumBits) / kMostRoot;
+        kept.fading = 2.0f * roots * roots;
+    }
     return kept;
 }
 
@@ -116,13 +144,22 @@ SHUTTER_INLINE ivec3 toSteps(vec3 compressed) {
     return ivec3(compressed * kSteps + 0.5f);
 }
 
-/// Compressed. \param kept of one frame or more
-SHUTTER_INLINE vec3 meanOf(Kept kept) {
-    return vec3(kept.sum) / (kept.count * kSteps);
+/// Number of frames that the mean is worth. What fades loses its share as fast as frames come in.
+SHUTTER_INLINE float countOf(Kept kept) {
+    if (!fades(kept)) return kept.count;
+    return kept.count * float(kept.left) / float(kPlaceCount) + float(kPlaceCount - kept.left);
 }
 
-/// Adds a frame, unless the pixel has had one for each place and has long been unchanged: its mean
-/// then stays constant, so that it does not flicker.
+/// Compressed. \param kept of one frame or more
+SHUTTER_INLINE vec3 meanOf(Kept kept) {
+    vec3 sum = vec3(kept.sum) / kSteps;
+    if (fades(kept)) sum += kept.fading * (kept.count * float(kept.left) / float(kPlaceCount));
+    return sum / countOf(kept);
+}
+
+/// Adds a frame, unless the pixel has had one for each place: its mean then stays constant, so that
+/// it does not flicker. A mean that was in doubt fades, each frame by an equal part, until one frame
+/// for each place has replaced it: then nothing of it is left, and all places count alike.
 /// \param current this frame's colour, compressed
 /// \param mayDiffer the surface may have changed: the mean is clipped to the moments
 /// \param moments of the neighbourhood, compressed YCoCg
@@ -136,18 +173,22 @@ SHUTTER_INLINE Kept addFrame(vec3 current, Kept last, bool mayDiffer, ColorMomen
         Clipped clipped = clipToVariance(ycocgFromRgb(meanOf(last)), moments);
         vec3 mean = min(max(rgbFromYcocg(clipped.color), vec3(0.0f)), vec3(2.0f));
         // What had to be clipped is out of date, at least in part: fewer frames vouch for it.
-        float trusted = max(1.0f, last.count / max(clipped.beyond * clipped.beyond, 1.0f));
+        float trusted = max(1.0f, countOf(last) / max(clipped.beyond * clipped.beyond, 1.0f));
         trusted = min(floor(trusted * 256.0f) / 256.0f, float(kPlaceCount - 1u)); // as it is packed
         kept.sum = toSteps(mean * trusted + current);
         kept.count = trusted + 1.0f;
-        kept.left = kFollowedFrames;
+        kept.left = kPlaceCount;
+    } else if (last.left > 0u) {
+        if (last.left == kPlaceCount) {
+            kept.fading = meanOf(last);
+            kept.sum = ivec3(0);
+        }
+        kept.sum += toSteps(current);
+        kept.left = last.left - 1u;
+        if (kept.left == 0u) kept.count = float(kPlaceCount);
     } else if (last.count < float(kPlaceCount)) {
         kept.sum = last.sum + toSteps(current);
         kept.count = last.count + 1.0f;
-    } else if (last.left > 0u) {
-        kept.sum = toSteps(meanOf(last) * float(kPlaceCount - 1u) + current);
-        kept.count = float(kPlaceCount);
-        kept.left = last.left - 1u;
     }
     return kept;
 }

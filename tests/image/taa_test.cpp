@@ -439,6 +439,27 @@ TEST_F(TaaLaw, EdgesInTexturesOfColorAndEmissionAreSmooth) {
     }
 }
 
+TEST_F(TaaLaw, ASeamBetweenTrianglesIsShadedAsTheSurfaceIs) {
+    slideCamera(1.5);
+    mShadows.mode = extract::ShadowMode::Sharp;
+    scene::Material floor;
+    floor.metallicFactor = 0.0f;
+    floor.baseColor.texture = mScene.addWaveTexture(32);
+    const scene::AssetIndex material = mScene.addMaterial(floor);
+    std::vector<scene::Primitive> strips; // each of two triangles, seen at a slant
+    for (int i = 0; i < 12; ++i)
+        strips.push_back(test::transformed(
+            test::makeQuad(1.0, 12.0, material),
+            glm::translate(math::dmat4(1.0), math::dvec3(i - 5.5, 0, 0))
+        ));
+    const math::dquat slant = glm::angleAxis(-1.35, math::dvec3(1, 0, 0));
+    mScene.add(
+        mScene.addMesh(std::move(strips)), {.position = {mSpeed, -1, -8}, .rotation = slant}
+    );
+    mScene.addSun({0.3, -1.0, -0.3}, 2.0f);
+    EXPECT_LT(measureError([](uint32_t, uint32_t y) { return y > 40; }), 0.01);
+}
+
 TEST_F(TaaLaw, EdgesOfAlphaMasksAreSmooth) {
     slideCamera(1.5);
     addWall(math::vec3(0.05f), 9.0);
@@ -616,6 +637,40 @@ TEST_F(TaaLaw, AnEntityThatSetsOffLeavesNothing) {
     path.keys[1].position = math::dvec3(6.0, 0, -4);
     mScene.world.registry.add(mSquare, path);
     EXPECT_LT(measureShare(isMiddle), 0.8);
+}
+
+TEST_F(TaaLaw, WhatSetsOffChangesNothingThatItCannotReach) {
+    addMiddle();
+    scene::PathMotion path;
+    path.interpolation = scene::PathInterpolation::Linear;
+    path.keys = {{.seconds = kSeconds - 0.5 / 24.0}, {.seconds = kSeconds + 1.0}};
+    path.keys[0].position = math::dvec3(0, 0, -4);
+    path.keys[1].position = math::dvec3(3.0, 0, -4);
+    mScene.world.registry.add(mSquare, path);
+    test::Frames frames(test::sharedDevice(), mScene);
+    const image::Image before = drawAmong(frames, AntiAliasing::Taa, kSeconds - kFrameSeconds);
+    for (int frame = 0; frame < 3; ++frame) {
+        const image::Image after =
+            drawAmong(frames, AntiAliasing::Taa, kSeconds + frame * kFrameSeconds);
+        EXPECT_EQ(
+            measureDifference(after, before, [](uint32_t x, uint32_t) { return x < 30; }), 0.0
+        );
+    }
+}
+
+TEST_F(TaaLaw, AfterADoubtAPictureSettlesToWhatItIsWithoutOne) {
+    addLitFloor();
+    addTiles(4.5);
+    mShadows.mode = extract::ShadowMode::Sharp;
+    const auto square =
+        test::addCard(mScene, {2.0, 2.0}, math::vec3(0.45f), {.position = {0, 0, -4}});
+    scene::hide(mScene.world, square, kSeconds - 18.5 / 24.0);
+    test::Frames frames(test::sharedDevice(), mScene);
+    for (int frame = -20; frame < 0; ++frame)
+        drawFrame(frames, frame);
+    const image::Image settled = drawAmong(frames, AntiAliasing::Taa);
+    EXPECT_LT(measureDifference(settled, draw(AntiAliasing::Taa), isAnywhere), 2e-4);
+    EXPECT_EQ(drawFrame(frames, 1), settled.pixels);
 }
 
 TEST_F(TaaLaw, ALightThatTurnsIsSeenAtOnce) {

@@ -78,7 +78,7 @@ TEST(TaaColor, DisplayableColoursStayLinearAndBrightSamplesAreCompressed) {
     }
 }
 
-constexpr Kept kNothing{shader::ivec3(0), 0.0f, 0u};
+constexpr Kept kNothing{shader::ivec3(0), 0.0f, 0u, vec3(0.0f)};
 
 /// Where static surfaces are unchanged, with any neighbours.
 Kept add(float grey, Kept last) {
@@ -90,7 +90,7 @@ Kept addInDoubt(float grey, Kept last, const ColorMoments& moments) {
 }
 
 Kept makeKept(float grey, float count) {
-    return {shader::toSteps(vec3(grey * count)), count, 0u};
+    return {shader::toSteps(vec3(grey * count)), count, 0u, vec3(0.0f)};
 }
 
 TEST(TaaHistory, EachFrameHasAnEqualShareUntilThereIsOnePerPlaceAndThenTheMeanStays) {
@@ -136,25 +136,47 @@ TEST(TaaHistory, AColorInDoubtIsClippedToItsNeighboursAndTrustedLess) {
     EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 1e-3f);
 }
 
-TEST(TaaHistory, ASettledPixelAdaptsAfterADoubtAndThenStays) {
+/// As the next frame finds it.
+Kept keep(const Kept& kept) {
+    return shader::unpackKept(shader::packSums(kept), shader::packCounts(kept));
+}
+
+TEST(TaaHistory, NothingOfAMeanInDoubtIsLeftOnceThereIsAFramePerPlaceAndThenItStays) {
     // The neighbourhood's colours spread so far that the old one is not clipped.
     Kept kept = makeKept(0.3f, float(kPlaceCount));
     for (int i = 0; i < 2; ++i)
-        kept = addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f));
-    for (uint32_t i = 0; i < shader::kFollowedFrames; ++i)
-        kept = add(0.5f, kept);
-    EXPECT_NEAR(shader::meanOf(kept).x, 0.5f, 0.004f);
-    EXPECT_EQ(add(0.9f, kept).sum, kept.sum);
+        kept = keep(addInDoubt(0.5f, kept, makeMoments(0.4f, 0.4f)));
+    float mean = 0.0f;
+    for (uint32_t i = 0; i < kPlaceCount; ++i) {
+        const float before = shader::meanOf(kept).x;
+        const float grey = 0.5f + 0.02f * float(i);
+        mean += grey / float(kPlaceCount);
+        kept = keep(add(grey, kept));
+        // A frame counts for no more than it does in the end: nothing flickers meanwhile.
+        EXPECT_LT(std::abs(shader::meanOf(kept).x - before), 0.6f / float(kPlaceCount)) << i;
+    }
+    EXPECT_NEAR(shader::meanOf(kept).x, mean, 1e-4f);
+    const Kept next = add(0.9f, kept);
+    EXPECT_EQ(next.sum, kept.sum);
+    EXPECT_EQ(next.count, kept.count);
 }
 
-TEST(TaaHistory, CountsAreUnpackedUnchanged) {
-    for (const float count : {0.0f, 1.0f, 4.75f, 16.0f, 16.5f})
-        for (const uint32_t left : {0u, 1u, shader::kFollowedFrames}) {
-            const Kept kept{shader::ivec3(1, 2, 3), count, left};
-            const Kept back = shader::unpackKept(kept.sum, shader::packCounts(kept));
-            EXPECT_EQ(back.sum, kept.sum);
+TEST(TaaHistory, WhatIsStoredComesBack) {
+    for (const float count : {0.0f, 1.0f, 4.75f, 16.0f})
+        for (const uint32_t left : {0u, 1u, kPlaceCount - 1u, kPlaceCount}) {
+            const Kept kept{
+                shader::toSteps(vec3(32.0f, 0.0f, 1.0f)), count, left, vec3(2.0f, 0.0f, 0.25f)};
+            const Kept back = keep(kept);
             EXPECT_EQ(back.count, count);
             EXPECT_EQ(back.left, left);
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_NEAR(
+                    float(back.sum[i]), float(kept.sum[i]), shader::fades(kept) ? 256.0f : 0.0f
+                );
+                if (shader::fades(kept)) {
+                    EXPECT_NEAR(back.fading[i], kept.fading[i], 0.001f);
+                }
+            }
         }
 }
 
