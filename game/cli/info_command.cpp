@@ -14,6 +14,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace shutter::game {
@@ -27,6 +28,10 @@ struct InfoArguments {
     bool methods = false;
     bool schema = false;
 };
+
+std::string nameOrIndex(const std::string& name, size_t index) {
+    return name.empty() ? std::to_string(index) : name;
+}
 
 core::Status printDevices() {
     SHUTTER_TRY(gpu::loadVulkan());
@@ -112,12 +117,20 @@ core::Status printScene(const std::string& path, io::Reach reach) {
             core::countOf(clip.channels.size() + clip.weightChannels.size(), "channel")
         );
     }
-    for (const auto& skin : world.assets.skins)
-        fmt::print("skin {}: {}\n", skin.name, core::countOf(skin.jointFromBind.size(), "joint"));
-    for (const auto& mesh : world.assets.meshes)
-        if (!mesh.morphWeights.empty())
+    const auto& skins = world.assets.skins;
+    for (size_t i = 0; i < skins.size(); ++i)
+        fmt::print(
+            "skin {}: {}\n",
+            nameOrIndex(skins[i].name, i),
+            core::countOf(skins[i].jointFromBind.size(), "joint")
+        );
+    const auto& meshes = world.assets.meshes;
+    for (size_t i = 0; i < meshes.size(); ++i)
+        if (!meshes[i].morphWeights.empty())
             fmt::print(
-                "mesh {}: {}\n", mesh.name, core::countOf(mesh.morphWeights.size(), "morph target")
+                "mesh {}: {}\n",
+                nameOrIndex(meshes[i].name, i),
+                core::countOf(meshes[i].morphWeights.size(), "morph target")
             );
     for (const std::string& warning : loaded.value().warnings)
         fmt::print("warning: {}\n", warning);

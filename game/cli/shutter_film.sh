@@ -79,7 +79,10 @@ check_arguments() {
 # Has `shutter render` check options and files; sets frames, journal and work.
 plan() {
     local printed
-    printed=$("$shutter" render "${words[@]}" --part "1/$parts" --dry-run) || exit $?
+    printed=$({
+        "$shutter" render "${words[@]}" --part "1/$parts" --dry-run 2>&1 >&3 |
+            sed -E 's/\b(of|for|command|shutter) render\b/\1 film/g' >&2
+    } 3>&1) || exit $?
     frames=$(sed -n 's/^frames: //p' <<<"$printed")
     journal=$(realpath -m "$(sed -n 's/^journal: //p' <<<"$printed")")
     work=$(realpath -m "$(sed -n 's/^work: //p' <<<"$printed")") # of logs, and the ids of jobs
@@ -143,7 +146,7 @@ draw_here() {
     [[ ! -e $work/failed ]] || fail 1 "$(<"$work/failed"); the same command goes on where it stopped"
     "$shutter" render "${words[@]}" >"$work/finish.log" 2>&1 ||
         fail 1 "$(last_sentence "$work/finish.log")"
-    grep 'is complete and skipped' "$work/finish.log" || true
+    grep 'is complete, so it is skipped' "$work/finish.log" || true
     rm -rf "$work"
 }
 

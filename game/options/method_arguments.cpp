@@ -153,7 +153,8 @@ Status applySetting(
             "--set '{}': method {} has no such setting, it has {}",
             name,
             method.name,
-            fmt::join(known, ", ")
+            fmt::join(known, ", "),
+            method.sampleUnit ? "; the sample count is --samples" : ""
         );
     const auto& row = core::getRow(motion_blur::listSettingRows(), name);
     if (Status parsed = core::parseValue(row, value, settings); !parsed)

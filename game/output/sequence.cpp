@@ -360,7 +360,7 @@ core::Status renderFilm(
         return journal.error();
     if (maySkip(options) && journal.value().isComplete(0, options.output.film)) {
         fmt::print(
-            "{}: is complete and skipped (--restart draws it)\n", options.output.film.string()
+            "{} is complete, so it is skipped (--restart draws it)\n", options.output.film.string()
         );
         if (options.output.keepFrames && !std::filesystem::exists(options.output.out.parent_path()))
             core::logWarning("--keep-frames: its frames are gone; --restart draws them");

@@ -450,7 +450,7 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
             "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [4, 0, 0]},
                       {"camera": 0, "name": "eye"}],
             "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
-            "meshes": [{"name": "face", "primitives": [{"attributes": {"POSITION": 0},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
                         "targets": [{"POSITION": 0}]}]}],
             "skins": [{"name": "rig", "joints": [0, 1]}],
             "animations": [{"name": "nod", "samplers": [{"input": 1, "output": 1}], "channels":
@@ -474,7 +474,7 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
          "eye",
          "clip 0 'nod': 0 s, 1 channel\n",
          "skin rig: 2 joints",
-         "mesh face: 1 morph target\n"}
+         "mesh 0: 1 morph target\n"}
     );
 }
 

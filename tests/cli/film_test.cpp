@@ -148,7 +148,7 @@ TEST_F(Film, AFilmDrawnInPartsEqualsThatOfOneProcess) {
     EXPECT_FALSE(fs::exists(path("parts.mp4.parts")));
     for (const std::string& file : listFiles())
         EXPECT_EQ(file.find(".part_"), std::string::npos) << file;
-    const std::string skipped = "parts.mp4: is complete and skipped (--restart draws it)\n";
+    const std::string skipped = "parts.mp4 is complete, so it is skipped (--restart draws it)\n";
     EXPECT_EQ(expectSuccess(parts).out, skipped);
     EXPECT_EQ(expectSuccess(draw("render", "parts.mp4")).out, skipped);
 }

@@ -14,6 +14,8 @@ namespace shutter::cli {
 
 namespace {
 
+constexpr const char* kCommands = "render, compare, info, play, replay, bench, film";
+
 constexpr const char* kResting =
     R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 1, 0]}]})";
 
@@ -45,15 +47,34 @@ TEST_F(Cli, WrongUsageIsRefusedByOptionBeforeAnythingIsWritten) {
         return join({"bench", "--out", path("x")}, more);
     };
     expectRefusals({
-        {{}, kUsage, {"subcommand"}},
-        {{"nosuch"}, kUsage, {"subcommand"}},
+        {{}, kUsage, {"no command is given", kCommands}},
+        {{"nosuch"}, kUsage, {"'nosuch' is no command; there are", kCommands}},
+        {{"rendr", "s.glb", "--out", "a.png"}, kUsage, {"did you mean render?", kCommands}},
+        {{"--method", "sharp"}, kUsage, {"no command comes before --method", kCommands}},
+        {{"--out", "a.png", "render", "s.glb"}, kUsage, {"--out must come after", "render"}},
+        {{"render", "s.glb", "--version"}, kUsage, {"--version must come before", "render"}},
         {{"render"}, kUsage, {"scene"}},
         {{"render", "scene.glb"}, kUsage, {"--out"}},
         {{"info"}, kUsage, {"SCENE", "--devices", "--methods"}},
         {{"compare", "a.png"}, kUsage, {"b"}},
-        {draw({"--nosuch"}), kUsage, {"--nosuch"}},
-        {draw({"--size", "5x5"}), kUsage, {"--size"}}, // for the second time
-        {draw({"--time=1x"}), kUsage, {"--time", "1x"}},
+        {draw({"--nosuch"}),
+         kUsage,
+         {"'--nosuch' is no option of render; `shutter render --help`"}},
+        {{"render", "s.glb", "--otu", "a.png"}, kUsage, {"'--otu'", "did you mean --out?"}},
+        {draw({"--shadow=sharp"}), kUsage, {"'--shadow' is no option of", "mean --shadows?"}},
+        {draw({"b.glb"}), kUsage, {"'b.glb' is one argument too many for render"}},
+        {{"compare", "a.png", "--ouy", "c.png"}, kUsage, {"option of compare", "mean --out?"}},
+        {film({"--job", "2"}), kUsage, {"'--job' is no option of film; `shutter film --help`"}},
+        {film({"--mehtod", "sharp"}), kUsage, {"option of film; did you mean --method?"}},
+        {bench({"--limt", "3"}), kUsage, {"option of bench; did you mean --limit?"}},
+        {draw({"--size", "5x5"}), kUsage, {"--size is given 2 times"}},
+        {{"render", "s.glb", "--out"}, kUsage, {"--out needs a value"}},
+        {draw({"--time=1x"}), kUsage, {"--time: '1x' is not a number"}},
+        {draw({"--seed", "1.5"}), kUsage, {"--seed: 1.5 is not a whole number"}},
+        {draw({"--repeat", "x"}), kUsage, {"--repeat: 'x' is not a number"}},
+        {draw({"--method", "resolved", "--set", "samples=3"}),
+         kUsage,
+         {"no such setting", "the sample count is --samples"}},
         {draw({"--samples=257", "--method", "gather"}), kUsage, {"--samples", "257"}},
         {draw({"--phase", "a\nb\x1b[31m"}), kUsage, {"--phase"}}, // in one line
         {draw({"--exposure", "1", "--shutter-angle", "9"}),

@@ -363,7 +363,7 @@ TEST_F(Sequence, AFilmHasEveryFrameAndIsTheSameEachTime) {
     expectFilm("film.mp4", "6");
     EXPECT_FALSE(fs::exists(path("film.mp4.frames")));
     const std::string bytes = readFile("film.mp4");
-    expectPrinted(film, {"film.mp4: is complete"});
+    expectPrinted(film, {"film.mp4 is complete"});
     expectSuccess(join(film, {"--restart", "--keep-frames"}));
     EXPECT_TRUE(readFile("film.mp4") == bytes);
     EXPECT_TRUE(fs::exists(path("film.mp4.frames/frame_000005.png")));

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace shutter::core {
 namespace {
@@ -22,6 +24,19 @@ TEST(Words, ACountOfOneIsSingularAndOthersPlural) {
     EXPECT_EQ(thereAre(0, "light"), "there are 0 lights");
     EXPECT_EQ(thereAre(1, "light"), "there is 1 light");
     EXPECT_EQ(thereAre(2, "mesh", "meshes"), "there are 2 meshes");
+}
+
+TEST(Words, AMisspeltNameIsNearestToTheOneThatFewestErrorsLeadTo) {
+    const std::vector<std::string> names = {"method", "out", "samples", "sky", "set", "seed"};
+    EXPECT_EQ(findNearest("methd", names), "method");
+    EXPECT_EQ(findNearest("otu", names), "out") << "two letters exchanged are one error";
+    EXPECT_EQ(findNearest("sampels", names), "samples");
+    EXPECT_EQ(findNearest("smpls", names), "") << "more than a third is wrong";
+    EXPECT_EQ(findNearest("skye", names), "sky");
+    EXPECT_EQ(findNearest("sed", names), "set") << "the first of equally near ones";
+    for (const char* far : {"", "x", "resolution"})
+        EXPECT_EQ(findNearest(far, names), "") << far;
+    EXPECT_EQ(findNearest(std::string(100, 'm'), names), "");
 }
 
 FrameRate parse(const std::string& text) {
