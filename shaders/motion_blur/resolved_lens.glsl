@@ -17,14 +17,13 @@ float confusionAt(InstantMotionsRef motions, float depth) {
 }
 
 /// How far back towards the pixel the colour is fetched from, as a share of the way over which the
-/// lens moves a surface. Linear interpolation blurs by itself: at a distance d below 1 it has the second
-/// moment d, and 1/6 more than d^2 on the mean of farther ones. So much less of the disc of radius r,
-/// whose mean distance along an axis is 4 r / (3 pi) and whose second moment is r^2 / 4, gives the
-/// disc's own.
+/// lens moves a surface. Linear interpolation blurs by itself, so a smaller disc blurs as the lens does. Of
+/// step edges at any angle and place in box pixels, 0.28, 0.48, 0.58, 0.68, 0.72, 0.80 and 0.88 of the way
+/// err least, squared, for radii of 0.3, 0.5, 0.7, 0.85, 0.99, 1.2 and 1.5 pixels; what is used here has at
+/// most 0.2 dB less.
 /// \param radius of the circle of confusion, pixels
 float shareForInterpolation(float radius) {
-    float farther = sqrt(max(1.0f - 0.6667f / max(radius * radius, 1.0e-6f), 0.0f));
-    return 1.0f - (radius < 1.0f ? 0.589f * radius : min(0.589f * radius, farther));
+    return 1.0f - inversesqrt(1.0f + 0.75f / max(radius * radius, 1.0e-6f));
 }
 
 /// What is added to the place that a sample's colour is fetched at.
