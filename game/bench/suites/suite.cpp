@@ -38,6 +38,7 @@ constexpr std::array kSuites = {
     SuiteRow{"sequence", makeSequenceSuite},
     SuiteRow{"edges", makeEdgesSuite},
     SuiteRow{"lens", makeLensSuite},
+    SuiteRow{"look", makeLookSuite},
 };
 
 /// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
@@ -221,6 +222,18 @@ constexpr EdgesRow kEdgesRows[] = {
     {"gallery", "Gallery", "Nearly all is at rest.", &generator::buildGalleryScene, "shooter", 0.5},
 };
 
+SequenceCase makeFilm(const SequenceRow& row) {
+    SequenceCase film;
+    film.name = row.name;
+    film.title = row.title;
+    film.description = row.description;
+    film.writeScene = makeWriter(row.build);
+    film.demo = row.demo;
+    film.script = row.script;
+    film.firstFrame = row.firstFrame;
+    return film;
+}
+
 /// One of each for each kind of anti-aliasing.
 template <class T> std::vector<T> spread(const std::vector<T>& cases, const Suite& suite) {
     std::vector<T> all;
@@ -336,15 +349,23 @@ Suite makeSequenceSuite() {
     Suite suite;
     suite.name = "sequence";
     suite.repeats = 1;
+    for (const SequenceRow& row : kRows)
+        suite.sequences.push_back(makeFilm(row));
+    return suite;
+}
+
+Suite makeLookSuite() {
+    Suite suite;
+    suite.name = "look";
+    suite.repeats = 1;
+    suite.pixel = extract::PixelModel::Box;
+    suite.antiAliasings = {game::AntiAliasing::None, game::AntiAliasing::Taa};
     for (const SequenceRow& row : kRows) {
-        SequenceCase film;
-        film.name = row.name;
-        film.title = row.title;
-        film.description = row.description;
-        film.writeScene = makeWriter(row.build);
-        film.demo = row.demo;
-        film.script = row.script;
-        film.firstFrame = row.firstFrame;
+        if (std::string_view(row.demo).empty())
+            continue;
+        SequenceCase film = makeFilm(row);
+        film.shot.picture.shadows.mode = extract::ShadowMode::Blurred;
+        film.shot.picture.bloom.share = 0.04f;
         suite.sequences.push_back(std::move(film));
     }
     return suite;

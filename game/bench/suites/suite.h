@@ -97,6 +97,8 @@ makeWriter(std::function<generator::GltfWriter()> build);
 /// Four shots as a camera sees them: with each anti-aliasing, against the mean over the pixel.
 [[nodiscard]] Suite makeEdgesSuite();
 
+/// The played demos in the default look of `play` with a GPU, with taa and without anti-aliasing.
+[[nodiscard]] Suite makeLookSuite();
 /// Shots that a lens sees, against the mean over lens, exposure and pixel.
 [[nodiscard]] Suite makeLensSuite();
 

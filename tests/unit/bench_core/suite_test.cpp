@@ -72,6 +72,18 @@ TEST(Suites, SequencesAreFourFlightsAndThreePlayedDemos) {
     EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));
 }
 
+TEST(Suites, TheLookHasEachDemoWithShadowsAndBloomBeforeAPictureOfThePixelsMean) {
+    const auto suite = test::valueOf(findSuite("look"));
+    std::set<std::string> demos;
+    for (const SequenceCase& film : suite.sequences) {
+        demos.insert(film.demo);
+        EXPECT_EQ(film.shot.picture.shadows.mode, extract::ShadowMode::Blurred) << film.name;
+        EXPECT_GT(film.shot.picture.bloom.share, 0.0f) << film.name;
+    }
+    EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));
+    EXPECT_EQ(suite.pixel, extract::PixelModel::Box);
+}
+
 TEST(Suites, EachCaseIsThereWithEachAntiAliasingAndTheSuitesPixel) {
     Suite suite = makeEdgesSuite();
     const size_t count = suite.cases.size();
