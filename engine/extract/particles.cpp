@@ -171,7 +171,7 @@ class Extraction {
         if (!mTables.empty())
             addCameras();
         if (!mTables.isInstant)
-            measureWays();
+            measureCourses();
         mTables.mayOverflow = mBrightest > kSafeSum;
         return std::move(mTables);
     }
@@ -287,8 +287,16 @@ class Extraction {
         return math::vec3(math::vec2(clip) / clip.w * half, radius);
     }
 
-    /// How far it goes, pixels, and its radius, where it is seen; takes it into the tables' box.
-    [[nodiscard]] std::optional<math::vec2> measureWay(const shader::ParticleRow& row) {
+    /// What a particle does during the exposure, pixels.
+    struct Course {
+        float way = 0.0f;
+        float growth = 0.0f; ///< of its radius, either way
+        float turn = 0.0f;   ///< of its picture's rim
+        float radius = 0.0f; ///< the largest
+    };
+
+    /// Where it is seen; takes it into the tables' box.
+    [[nodiscard]] std::optional<Course> measureCourse(const shader::ParticleRow& row) {
         const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
         const math::vec2 alive =
             shader::particleLifetime(row, emitter, mTables.rasterTime, 0.0f, 1.0f);
@@ -305,23 +313,52 @@ class Extraction {
         }
         math::vec2 least = math::vec2(*seen[0]);
         math::vec2 most = least;
-        float radius = 0.0f;
+        Course course;
         for (const auto& at : seen) {
             least = glm::min(least, math::vec2(*at));
             most = glm::max(most, math::vec2(*at));
-            radius = std::max(radius, at->z);
+            course.radius = std::max(course.radius, at->z);
         }
-        const float way = glm::distance(math::vec2(*seen[0]), math::vec2(*seen[1])) +
-                          glm::distance(math::vec2(*seen[1]), math::vec2(*seen[2]));
+        for (const size_t i : {0, 1}) {
+            course.way += glm::distance(math::vec2(*seen[i]), math::vec2(*seen[i + 1]));
+            course.growth += std::abs(seen[i + 1]->z - seen[i]->z);
+        }
+        if (emitter.texture != shader::kNoParticleTexture)
+            course.turn = std::abs(row.spin * emitter.secondsPerExposure) * (alive.y - alive.x) *
+                          std::max(course.radius, shader::kMinParticleRadiusPx);
         // Corners of pictures, and the curve of the path between the three places.
-        const math::vec2 aside(1.5f * std::max(radius, shader::kMinParticleRadiusPx) + 0.5f * way);
+        const math::vec2 aside(
+            1.5f * std::max(course.radius, shader::kMinParticleRadiusPx) + 0.5f * course.way
+        );
         least -= aside;
         most += aside;
-        if (!(radius > 0.0f) || glm::any(glm::greaterThan(least, half)) ||
+        if (!(course.radius > 0.0f) || glm::any(glm::greaterThan(least, half)) ||
             glm::any(glm::lessThan(most, -half)))
             return std::nullopt;
         addToBox(least, most);
-        return math::vec2(way, radius);
+        return course;
+    }
+
+    /// Whether it comes, goes or changes its colour within the exposure.
+    [[nodiscard]] bool isFleeting(const shader::ParticleRow& row) const {
+        constexpr float kNoticeable = 0.1f;
+        const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
+        if (!(emitter.secondsPerExposure > 0.0f))
+            return false;
+        const math::vec2 alive =
+            shader::particleLifetime(row, emitter, mTables.rasterTime, 0.0f, 1.0f);
+        if (alive.x > 0.0f || alive.y < 1.0f)
+            return true;
+        const auto colorAt = [&](float s) {
+            return shader::particleColor(
+                row, emitter, shader::particleAge(row, emitter, s, mTables.rasterTime)
+            );
+        };
+        const math::vec4 open = colorAt(0.0f);
+        const math::vec4 middle = colorAt(0.5f);
+        const math::vec4 close = colorAt(1.0f);
+        const math::vec4 change = glm::max(glm::abs(middle - open), glm::abs(close - middle));
+        return glm::any(glm::greaterThan(change, kNoticeable * glm::max(open, close)));
     }
 
     /// \param least, most pixels from the picture's centre
@@ -332,19 +369,19 @@ class Extraction {
     }
 
     /// As many parts as the fastest picture needs instants, which are a quarter of its size apart.
-    void measureWays() {
+    void measureCourses() {
         float most = 1.0f;
         for (const shader::ParticleRow& row : mTables.rows) {
-            const auto way = measureWay(row);
-            if (!way)
+            const auto course = measureCourse(row);
+            if (!course)
                 continue;
-            mTables.longestWayPx = std::max(mTables.longestWayPx, way->x);
-            const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
-            if (emitter.texture == shader::kNoParticleTexture)
+            const float longest = course->way + course->growth + course->turn;
+            mTables.longestWayPx = std::max(mTables.longestWayPx, longest);
+            mTables.areFleeting = mTables.areFleeting || isFleeting(row);
+            if (mTables.emitters[row.emitter].texture == shader::kNoParticleTexture)
                 continue;
-            const float radius = std::max(way->y, shader::kMinParticleRadiusPx);
-            const float turned = std::abs(row.spin * emitter.secondsPerExposure) * radius;
-            most = std::max(most, std::ceil((way->x + turned) / (0.5f * radius)));
+            const float radius = std::max(course->radius, shader::kMinParticleRadiusPx);
+            most = std::max(most, std::ceil(longest / (0.5f * radius)));
         }
         mTables.parts = uint32_t(std::min(most, float(shader::kMaxParticleParts)));
     }

@@ -27,10 +27,13 @@ struct ParticleTables {
     std::vector<math::mat4> cameras;                  ///< as ParticleDraw::cameras
     float rasterTime = 1.0f;
     bool isInstant = true;
-    /// Parts of the exposure to be drawn one by one, in whose middle textures are shown; [1,
+    /// Parts of the exposure in which particles are drawn one after another in their order; [1,
     /// shader::kMaxParticleParts].
     uint32_t parts = 1;
-    float longestWayPx = 0.0f; ///< of any that is seen, in the exposure
+    /// Of any point of one that is seen, in the exposure: it goes, grows, turns its picture.
+    float longestWayPx = 0.0f;
+    bool areFleeting =
+        false; ///< one that is seen comes, goes or changes its colour in the exposure
     /// Corners of the part of the picture that particles cover in the exposure, and some more.
     math::dvec2 leastPx{std::numeric_limits<double>::infinity()};
     math::dvec2 mostPx{-std::numeric_limits<double>::infinity()};

@@ -109,6 +109,7 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
     if (!particles)
         return particles.error();
     path.px = std::max(path.px, double{particles.value().longestWayPx});
+    path.hasFleeting = particles.value().areFleeting;
     return path;
 }
 

@@ -99,7 +99,8 @@ struct LongestPath {
     /// Longest motion in the picture of a visible point or of a shadow caster, which need not be
     /// visible; pixels. 0: nothing moves.
     double px = 0.0;
-    bool movesLight = false; ///< one that lights the picture does
+    bool movesLight = false;  ///< one that lights the picture does
+    bool hasFleeting = false; ///< particles come, go or change their colour
 };
 
 /// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished

@@ -35,7 +35,8 @@ struct InstantChoice {
     std::string reason;  ///< a clause
 };
 
-/// Instants of a frame in which a light moves, at least: that moves no point, but shading changes.
+/// Instants of a frame in which a light moves or particles flash, at least: that moves no point,
+/// but colours change.
 inline constexpr uint32_t kMinInstantsOfLight = 16;
 
 /// As few as keep the step, 1 where nothing moves.

@@ -82,7 +82,8 @@ InstantChoice chooseInstants(const render::LongestPath& path, double maxStepPx, 
     InstantChoice choice;
     // Compared as numbers: a way may be longer than any integer.
     const double wanted = std::max(
-        std::ceil(path.px / maxStepPx), path.movesLight ? double{kMinInstantsOfLight} : 1.0
+        std::ceil(path.px / maxStepPx),
+        path.movesLight || path.hasFleeting ? double{kMinInstantsOfLight} : 1.0
     );
     choice.count = wanted < most ? static_cast<uint32_t>(wanted) : most;
     choice.stepPx = path.px / choice.count;
@@ -91,7 +92,9 @@ InstantChoice chooseInstants(const render::LongestPath& path, double maxStepPx, 
             "the longest way is {:.1f} px, {:.2f} px from one to the next", path.px, choice.stepPx
         );
     else
-        choice.reason = path.movesLight ? "only light moves" : "nothing moves";
+        choice.reason = path.movesLight    ? "only light moves"
+                        : path.hasFleeting ? "only particles come, go or change their colour"
+                                           : "nothing moves";
     return choice;
 }
 

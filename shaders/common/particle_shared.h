@@ -17,6 +17,10 @@ SHUTTER_CONST uint kMaxParticleParts = 8u;
 SHUTTER_CONST uint kMaxStreakSegments = 4u;
 /// Smaller ones are drawn this large, and fainter: pixels are sampled at their centres.
 SHUTTER_CONST float kMinParticleRadiusPx = 1.0f;
+/// Most times at which a texture is shown within one part of the exposure.
+SHUTTER_CONST uint kMaxPictureTimes = 8u;
+/// Pixels between two such times, or a sixth of the radius if that is longer.
+SHUTTER_CONST float kPictureStepPx = 1.5f;
 
 struct ParticleRow {
     vec4 placeAge;     // xyz camera-relative space, metres, at birth; w age at the raster instant,
@@ -161,18 +165,60 @@ SHUTTER_INLINE vec2 streakCoverage(vec2 point, vec2 way, float radius) {
     return vec2(max(sum, 0.0f) / lengthRadii, clamp(along, 0.0f, 1.0f));
 }
 
-/// The share of that way, from x to y, at which the particle covers the point that it passes.
-SHUTTER_INLINE vec2 streakSpan(vec2 point, vec2 way, float radius) {
+/// The share of that way, from x to y, at which the particle covers the point that it passes, while
+/// its radius goes evenly from `first` to `last`. Not covered: x is not below y.
+///
+/// Where |u - w t|^2 + v^2 = (first + k t)^2, with u and v as above in pixels and w the way's
+/// length.
+SHUTTER_INLINE vec2 streakSpan(vec2 point, vec2 way, float first, float last) {
     float length_ = sqrt(dot(way, way));
-    float lengthRadii = length_ / radius;
-    if (lengthRadii < 0.01f)
-        return vec2(0.0f, 1.0f);
-    vec2 direction = way / length_;
-    float u = dot(point, direction) / radius;
-    float v = (point.x * direction.y - point.y * direction.x) / radius;
-    float reach = sqrt(max(1.0f - v * v, 0.0f));
-    float first = clamp((u - reach) / lengthRadii, 0.0f, 1.0f);
-    return vec2(first, clamp((u + reach) / lengthRadii, first, 1.0f));
+    vec2 direction = length_ > 0.0f ? way / length_ : vec2(1.0f, 0.0f);
+    float u = dot(point, direction);
+    float v = point.x * direction.y - point.y * direction.x;
+    float k = last - first;
+    // a t^2 - 2 b t + c = 0, whose discriminant b^2 - a c is written without large differences.
+    float a = (length_ - k) * (length_ + k);
+    float b = length_ * u + first * k;
+    float c = u * u + v * v - first * first;
+    float nearest = length_ * first + k * u;
+    float discriminant = nearest * nearest - a * v * v;
+    if (discriminant < 0.0f)
+        return vec2(0.0f);
+    float root = sqrt(discriminant);
+    float sum = b < 0.0f ? b - root : b + root;
+    if (sum == 0.0f) // neither place nor size changes, or the span is a point
+        return vec2(0.0f, c < 0.0f ? 1.0f : 0.0f);
+    float one = c / sum;
+    float other = a != 0.0f ? sum / a : (sum < 0.0f ? -1.0e30f : 1.0e30f);
+    vec2 span = vec2(min(one, other), max(one, other));
+    // It changes faster than it moves: of the two the one at which it has a size, and beyond.
+    if (a < 0.0f)
+        span = k > 0.0f ? vec2(span.y, 1.0f) : vec2(0.0f, span.x);
+    return clamp(span, 0.0f, 1.0f);
+}
+
+/// Nodes of a sum over a span.
+SHUTTER_CONST uint kStreakNodes = 5u;
+
+/// Share of the way, x, and weight, y, of the i-th node of an integral over `span`, whose radius
+/// goes from `first` to `last` over the whole way. Gauss's, exact for the profile of a constant
+/// radius and colours that change evenly. A size that changes much is integrated over its
+/// logarithm: (1 - d^2 / r^2)^2 rises steeply where r is little more than d.
+SHUTTER_INLINE vec2 streakNode(vec2 span, float first, float last, uint i) {
+    float offset = i == 2u              ? 0.0f
+                   : i == 1u || i == 3u ? 0.26923465505284155f
+                                        : 0.45308992296933200f;
+    float weight = i == 2u              ? 0.28444444444444444f
+                   : i == 1u || i == 3u ? 0.23931433524968324f
+                                        : 0.11846344252809454f;
+    float x = i < 2u ? 0.5f - offset : 0.5f + offset;
+    float length_ = span.y - span.x;
+    float ratio = (first + (last - first) * span.y) / (first + (last - first) * span.x);
+    if (abs(ratio - 1.0f) < 0.05f)
+        return vec2(span.x + length_ * x, length_ * weight);
+    float scale = length_ / (ratio - 1.0f);
+    float grown = pow(ratio, x);
+    return vec2(span.x + scale * (grown - 1.0f), weight * scale * grown * log(ratio));
 }
 
 SHUTTER_SHADER_END

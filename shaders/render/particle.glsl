@@ -28,6 +28,27 @@ float lightBefore(float s) {
     return cumulativeResponse(ResponseRef(draw.response), s);
 }
 
+/// The i-th of the points that cut a span into segments: even ones before the middle, and as many
+/// after it.
+/// \param span first, middle and last point
+float cutSpan(vec3 span, uint segments, uint i) {
+    if (segments == 1u) return i == 0u ? span.x : span.z;
+    uint half_ = segments / 2u;
+    return i <= half_ ? mix(span.x, span.y, float(i) / float(half_))
+                      : mix(span.y, span.z, float(i - half_) / float(half_));
+}
+
+/// Light that is taken at s per time; a box's is 1.
+float lightDensity(float s) {
+    if ((draw.response.x | draw.response.y) == 0u) return 1.0f;
+    ResponseRef response = ResponseRef(draw.response);
+    uint last = 1u;
+    while (last < response.value.knotCount - 1u && response.value.knots[last].s < s) ++last;
+    ResponseKnot a = response.value.knots[last - 1u];
+    ResponseKnot b = response.value.knots[last];
+    return mix(a.density, b.density, saturate((s - a.s) / (b.s - a.s)));
+}
+
 /// A particle as the picture has it at one time.
 struct SeenParticle {
     vec2 placePx;

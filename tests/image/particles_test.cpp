@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Particles: where they are, what of them is seen, and that a streak is the mean of its instants.
 #include "engine/image/metrics.h"
+#include "engine/scene/history.h"
 #include "engine/scene/particle_emitter.h"
 #include "tests/image/laws.h"
 #include "tests/support/gpu_fixture.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -197,6 +199,88 @@ TEST_F(ParticleLaw, ACameraPanBlursParticlesLikeTheWorld) {
     test::Comparison pan(device(), scene, makeShot("sharp"), 256);
     EXPECT_LE(pan.psnr("sharp"), 35.0);
     EXPECT_GE(pan.psnr("resolved"), 55.0);
+}
+
+/// Of resolved to the mean of instants, of their light, and of the sharp picture to both.
+struct Likeness {
+    double psnr = 0.0;
+    double light = 0.0; ///< ratio
+    double sharp = 0.0; ///< PSNR
+};
+
+Likeness compareChange(gpu::Device& device, const ParticleEmitter& emitter, Shot shot) {
+    PixelScene scene;
+    scene.emit(emitter, {-10.0, 3.0, -10.0});
+    Stage stage(device, scene);
+    const image::Image blurred = stage.render(shot).color;
+    shot.method = "accumulate";
+    const image::Image truth = stage.render(shot).color;
+    shot.method = "sharp";
+    return {
+        image::computePsnr(blurred, truth),
+        test::sumLight(blurred) / test::sumLight(truth),
+        image::computePsnr(stage.render(shot).color, truth)};
+}
+
+TEST_F(ParticleLaw, AParticleThatGrowsOrShrinksIsTheMeanOfItsInstants) {
+    const auto makeGrowing = [](double birth, double death, const dvec3& velocity) {
+        ParticleEmitter emitter = makeOne(birth, velocity, -0.11);
+        emitter.sizeDeath = death;
+        emitter.lifeSeconds = 0.15;
+        return emitter;
+    };
+    for (const auto& [birth, death, speed] :
+         {std::tuple(0.1, 60.0, 0.0),
+          {60.0, 0.0, 0.0},
+          {0.1, 60.0, 100.0},
+          {50.0, 8.0, 500.0},
+          {0.0, 1.5, 0.0}})
+        for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle}) {
+            Shot shot = makeShot("resolved");
+            shot.shutter.response.shape = shape;
+            const Likeness found =
+                compareChange(device(), makeGrowing(birth, death, {speed, 0.0, 0.0}), shot);
+            EXPECT_GT(found.psnr, 50.0) << birth << ", " << speed;
+            EXPECT_NEAR(found.light, 1.0, 0.01) << birth << ", " << speed;
+            EXPECT_LT(found.sharp, found.psnr - 10.0) << birth << ", " << speed;
+        }
+}
+
+TEST_F(ParticleLaw, AFlashIsTheMeanOfItsColours) {
+    ParticleEmitter flash = makeOne(20.0, {}, -0.09);
+    flash.lifeSeconds = 0.07;
+    // Opacity peaks at a third of the exposure, and light and opacity change together.
+    flash.colors = {vec4(4.0f, 1.0f, 0.5f, 0.0f), vec4(0.5f, 1.0f, 1.0f, 1.0f), vec4(0.0f)};
+    for (const double speed : {0.0, 300.0}) {
+        flash.velocity.x = speed;
+        const Likeness found = compareChange(device(), flash, makeShot("resolved"));
+        EXPECT_GT(found.psnr, 50.0) << speed;
+        EXPECT_NEAR(found.light, 1.0, 0.01) << speed;
+    }
+}
+
+TEST_F(ParticleLaw, APictureThatTurnsGrowsOrFlashesInPlaceIsTheMeanOfItsInstants) {
+    PixelScene scene;
+    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].onParticles = true;
+    ParticleEmitter turns = makeOne(40.0, {});
+    turns.spin = 12.0;
+    turns.seed = 3;
+    ParticleEmitter grows = makeOne(4.0, {}, -0.11);
+    grows.sizeDeath = 50.0;
+    grows.lifeSeconds = 0.15;
+    ParticleEmitter flashes = makeOne(40.0, {}, -0.09);
+    flashes.lifeSeconds = 0.07;
+    flashes.colors = {vec4(1.0f, 1.0f, 1.0f, 0.0f), vec4(1.0f), vec4(1.0f, 1.0f, 1.0f, 0.0f)};
+    for (ParticleEmitter emitter : {turns, grows, flashes}) {
+        emitter.texture = 0;
+        const ecs::Entity entity = scene.emit(emitter, {-2.0, 3.0, -10.0});
+        test::Comparison change(device(), scene, makeShot("sharp"), 256);
+        const render::FrameResult blurred = change.render("resolved");
+        EXPECT_GT(change.psnr(blurred), change.psnr("sharp") + 8.0) << emitter.spin;
+        EXPECT_GT(change.psnr(blurred), 34.0) << emitter.spin;
+        EXPECT_NEAR(test::sumLight(blurred.color) / test::sumLight(change.truth()), 1.0, 0.01);
+        scene::hide(scene.world, entity);
+    }
 }
 
 TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {

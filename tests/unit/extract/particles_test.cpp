@@ -118,6 +118,39 @@ TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     EXPECT_NEAR(now.x, 2.0f, 1e-4f);
 }
 
+TEST_F(Particles, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
+    world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
+    world.assets.textures.push_back({.image = 0, .onParticles = true});
+    emitter = {};
+    emitter.bursts = {{.seconds = 1.9, .count = 1}};
+    emitter.lifeSeconds = 4.0;
+    emitter.sizeBirth = emitter.sizeDeath = 1.0;
+    emitter.colors.fill(vec4(1.0f));
+    setTime(2.1);
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
+    EXPECT_EQ(extractAll().longestWayPx, 0.0f);
+    EXPECT_FALSE(extractAll().areFleeting);
+    component.spin = 10.0;
+    EXPECT_EQ(extractAll().longestWayPx, 0.0f) << "a round one looks the same";
+    component.texture = 0;
+    const float turn = extractAll().longestWayPx;
+    EXPECT_GT(turn, 0.1f);
+    component.spin = 0.0;
+    component.sizeDeath = 41.0; // a metre in the exposure
+    const double metrePx = request.height / 2.0 / std::tan(scene::Camera{}.yFov / 2.0) / 10.0;
+    EXPECT_NEAR(extractAll().longestWayPx, 0.5 * metrePx, 0.2);
+    component.sizeDeath = 1.0;
+    component.bursts[0].seconds = 2.05;
+    EXPECT_TRUE(extractAll().areFleeting) << "it is born";
+    component.bursts[0].seconds = 1.9;
+    component.lifeSeconds = 0.15;
+    EXPECT_TRUE(extractAll().areFleeting) << "it dies";
+    component.lifeSeconds = 4.0;
+    component.colors[0] = vec4(0.0f);
+    EXPECT_TRUE(extractAll().areFleeting) << "it lights up";
+}
+
 TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
     emitter = {};
     emitter.lifeSeconds = 3.0;
@@ -329,7 +362,7 @@ TEST(ParticleFormulas, AParticleCoversNoPointOutsideItsPath) {
     for (const vec2& way : {vec2(3.0f, 1.0f), vec2(-20.0f, 35.0f)})
         for (float x = -30.5f; x < 16.0f; x += 2.9f) {
             const vec2 point(x, 0.7f * x + 4.0f);
-            const vec2 span = shader::streakSpan(point, way, 5.0f);
+            const vec2 span = shader::streakSpan(point, way, 5.0f, 5.0f);
             EXPECT_LE(0.0f, span.x);
             EXPECT_LE(span.x, span.y);
             EXPECT_LE(span.y, 1.0f);
@@ -343,7 +376,34 @@ TEST(ParticleFormulas, AParticleCoversNoPointOutsideItsPath) {
                 }
             }
         }
-    EXPECT_EQ(shader::streakSpan({1.0f, 0.0f}, {0.001f, 0.0f}, 5.0f), vec2(0.0f, 1.0f));
+    EXPECT_EQ(shader::streakSpan({1.0f, 0.0f}, {0.001f, 0.0f}, 5.0f, 5.0f), vec2(0.0f, 1.0f));
+}
+
+TEST(ParticleFormulas, AStreakWhoseRadiusChangesIsTheMeanOfItsInstants) {
+    constexpr int kManyInstants = 4096;
+    for (const vec2& way : {vec2(0.0f), vec2(1.0f, 0.5f), vec2(11.0f, 0.0f), vec2(-20.0f, 35.0f)})
+        for (const vec2& radii :
+             {vec2(1.0f, 12.0f), vec2(12.0f, 1.0f), vec2(1.0f, 400.0f), vec2(5.0f)})
+            for (float y = -14.5f; y < 40.0f; y += 3.7f)
+                for (float x = -30.5f; x < 16.0f; x += 2.9f) {
+                    const vec2 point(x, y);
+                    double mean = 0.0;
+                    for (int i = 0; i < kManyInstants; ++i) {
+                        const float t = (float(i) + 0.5f) / kManyInstants;
+                        const vec2 apart = (point - way * t) / glm::mix(radii.x, radii.y, t);
+                        mean += double(shader::roundProfile(glm::dot(apart, apart)));
+                    }
+                    const vec2 span = shader::streakSpan(point, way, radii.x, radii.y);
+                    double sum = 0.0;
+                    for (uint32_t i = 0; span.x < span.y && i < shader::kStreakNodes; ++i) {
+                        const vec2 node = shader::streakNode(span, radii.x, radii.y, i);
+                        const vec2 apart =
+                            (point - way * node.x) / glm::mix(radii.x, radii.y, node.x);
+                        sum += double(node.y * shader::roundProfile(glm::dot(apart, apart)));
+                    }
+                    EXPECT_NEAR(sum, mean / kManyInstants, 3e-4)
+                        << x << ", " << y << " of " << way.x << ", " << way.y << ", " << radii.y;
+                }
 }
 
 TEST(ParticleFormulas, ALifeIsCutToTheExposure) {

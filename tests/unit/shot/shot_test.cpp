@@ -199,7 +199,7 @@ TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {
     test::expectRefused(chooseClipCamera(mWorld, mOptions), listed);
 }
 
-TEST(Instants, AStaticFrameTakesOneInstantAndAMovingLightSome) {
+TEST(Instants, AStaticFrameTakesOneInstantAndAMovingLightOrAFlashSome) {
     const InstantChoice choice = chooseInstants({}, 1.0, 1024);
     EXPECT_EQ(choice.count, 1u);
     EXPECT_EQ(choice.reason, "nothing moves");
@@ -207,6 +207,9 @@ TEST(Instants, AStaticFrameTakesOneInstantAndAMovingLightSome) {
     EXPECT_EQ(lit.count, kMinInstantsOfLight);
     EXPECT_EQ(lit.reason, "only light moves");
     EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
+    const InstantChoice flash = chooseInstants({0.0, false, true}, 1.0, 1024);
+    EXPECT_EQ(flash.count, kMinInstantsOfLight);
+    EXPECT_EQ(flash.reason, "only particles come, go or change their colour");
 }
 
 TEST(Instants, InstantsAreNoFartherApartThanTheStepUpToTheMaximum) {
