@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/particles.h"
 
+#include "engine/scene/clip_jumps.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
 
@@ -27,6 +28,8 @@ using scene::ParticleEmitter;
 /// Steps of the exposure between which the camera is taken to go straight: as far as a mover's
 /// vertices go between shutter open and close, divided by eight.
 constexpr uint32_t kMovingCameras = 9;
+/// With those on either side of jumps.
+constexpr size_t kMaxCameras = 64;
 
 /// What additive light may add up to without the picture's own: half floats end at 65504.
 constexpr double kSafeSum = 30000.0;
@@ -73,22 +76,48 @@ class BirthPlace {
         dvec3 velocity{0.0};
     };
 
-    [[nodiscard]] Placed place(const scene::ParticleBirth& birth) const {
+    /// Nothing: the entity is scaled to a point, which is how clips hide one.
+    [[nodiscard]] std::optional<Placed> place(const scene::ParticleBirth& birth) const {
         const dmat4 matrix =
             mAlways ? *mAlways : scene::worldFromEntity(mWorld, mEntity, birth.seconds);
+        const dmat3 turned(matrix);
+        if (turned == dmat3(0.0))
+            return std::nullopt;
         Placed placed;
         placed.place = dvec3(matrix * math::dvec4(birth.place, 1.0));
-        placed.velocity = dmat3(matrix) * birth.velocity;
-        if (!mAlways && mInherit != 0.0) {
-            // Recorded motion is known up to the birth, not beyond.
-            constexpr double kStep = 1.0e-3;
-            const dmat4 before = scene::worldFromEntity(mWorld, mEntity, birth.seconds - kStep);
-            placed.velocity += (dvec3(matrix[3]) - dvec3(before[3])) * (mInherit / kStep);
-        }
+        placed.velocity = turned * birth.velocity;
+        if (!mAlways && mInherit != 0.0)
+            placed.velocity += mInherit * velocityAt(birth.seconds);
         return placed;
     }
 
   private:
+    /// Of the entity, m/s: between it and a jump where that is nearer than kStep, and right after
+    /// the jump from before it. Recorded motion is known up to a birth, not beyond.
+    [[nodiscard]] dvec3 velocityAt(double seconds) const {
+        constexpr double kStep = 1.0e-3;
+        constexpr double kLongestJump = 0.25 * kStep;
+        constexpr double kShortest = 1.0e-6;
+        double from = seconds - kStep;
+        double to = seconds;
+        const auto jumps =
+            scene::findPlaceJumps(mWorld, mEntity, {seconds - 2.0 * kStep, seconds}, kLongestJump);
+        for (auto jump = jumps.rbegin(); jump != jumps.rend() && jump->after > from; ++jump) {
+            from = std::max(from, jump->after);
+            if (to - from >= kShortest)
+                break;
+            to = std::min(to, jump->before);
+            from = to - kStep;
+        }
+        if (!(to - from >= kShortest))
+            return dvec3(0.0);
+        return dvec3(
+                   scene::worldFromEntity(mWorld, mEntity, to)[3] -
+                   scene::worldFromEntity(mWorld, mEntity, from)[3]
+               ) /
+               (to - from);
+    }
+
     const scene::World& mWorld;
     ecs::Entity mEntity;
     double mInherit;
@@ -150,7 +179,8 @@ class Extraction {
         const BirthPlace births(mWorld, entity, emitter.inherit);
         for (const scene::ParticleBirth& birth : living.value())
             if (birth.seconds >= beginning)
-                addRow(birth, births.place(birth), raster, index);
+                if (const auto placed = births.place(birth))
+                    addRow(birth, *placed, raster, index);
         if (mRows.size() > scene::kMaxParticles)
             return core::makeError(
                 "more than {} particles live at {} s, with those of emitter {}: emit fewer",
@@ -253,19 +283,46 @@ class Extraction {
     }
 
     void addCameras() {
-        const FrameView& view = mView;
         const auto& camera = mWorld.registry.get<scene::Camera>(mRequest.camera);
-        const bool moves = !mTables.isInstant && view.moves();
-        const uint32_t count = moves ? kMovingCameras : 1;
-        for (uint32_t i = 0; i < count; ++i) {
-            const double s = moves ? double(i) / (count - 1) : view.times().raster;
+        for (const double s : listCameraTimes()) {
             const auto [worldFromView, clipFromView] = placeCamera(mMotion, camera, mRequest, s);
             // A difference of eyes, so that it is exact far from the world's origin.
             const dmat4 viewFromRelWorld =
                 dmat4(dmat3(glm::inverse(worldFromView))) *
                 glm::translate(dmat4(1.0), mEye - dvec3(worldFromView[3]));
-            mTables.cameras.emplace_back(clipFromView * viewFromRelWorld);
+            mTables.cameras.push_back({math::mat4(clipFromView * viewFromRelWorld), float(s)});
         }
+    }
+
+    /// Shutter times between which the camera is taken to go straight; rising.
+    [[nodiscard]] std::vector<double> listCameraTimes() const {
+        const double raster = mView.times().raster;
+        if (mTables.isInstant || !mView.moves())
+            return {raster};
+        double first = 0.0;
+        double last = 1.0;
+        for (const shader::ParticleEmitterRow& emitter : mTables.emitters) {
+            first = std::min(first, raster - double{emitter.cameraShare} * raster);
+            last = std::max(last, raster + double{emitter.cameraShare} * (1.0 - raster));
+        }
+        std::vector<double> times;
+        for (uint32_t i = 0; i < kMovingCameras; ++i)
+            times.push_back(first + (last - first) * i / (kMovingCameras - 1));
+        const scene::ExposureInterval& exposure = mMotion.exposure();
+        const double length = exposure.close - exposure.open;
+        const auto jumps = scene::findPlaceJumps(
+            mWorld, mRequest.camera, mMotion.reach(), length / (kMovingCameras - 1)
+        );
+        const double middle = exposure.frame().raster;
+        for (const double speed : mMotion.cameraSpeeds())
+            for (const scene::Jump& jump : jumps)
+                for (const double seconds : {jump.before, jump.after}) {
+                    const double s = (middle + (seconds - middle) / speed - exposure.open) / length;
+                    if (s > first && s < last && times.size() < kMaxCameras)
+                        times.push_back(s);
+                }
+        std::sort(times.begin(), times.end());
+        return times;
     }
 
     /// Where a particle is seen at shutter time s: pixels, and its radius; nothing: behind the
@@ -274,9 +331,10 @@ class Extraction {
         const shader::ParticleEmitterRow& emitter = mTables.emitters[row.emitter];
         const float age = shader::particleAge(row, emitter, s, mTables.rasterTime);
         const float step = mTables.rasterTime + emitter.cameraShare * (s - mTables.rasterTime);
-        const auto last = float(mTables.cameras.size() - 1);
-        const auto nearest = size_t(std::clamp(std::round(step * last), 0.0f, last));
-        const math::mat4& camera = mTables.cameras[nearest];
+        const math::mat4& camera =
+            std::ranges::min_element(mTables.cameras, {}, [step](const auto& one) {
+                return std::abs(one.s - step);
+            })->clipFromRelWorld;
         const math::vec4 clip = camera * math::vec4(shader::particlePlace(row, emitter, age), 1.0f);
         if (!(clip.w > mForward.w))
             return std::nullopt;

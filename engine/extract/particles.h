@@ -24,7 +24,7 @@ enum class ParticleTime : uint8_t {
 struct ParticleTables {
     std::vector<shader::ParticleRow> rows;            ///< far to near
     std::vector<shader::ParticleEmitterRow> emitters; ///< `texture` is an index of Assets::textures
-    std::vector<math::mat4> cameras;                  ///< as ParticleDraw::cameras
+    std::vector<shader::ParticleCamera> cameras;      ///< at rising times; one: it is static
     float rasterTime = 1.0f;
     bool isInstant = true;
     /// Parts of the exposure in which particles are drawn one after another in their order; [1,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/clip_jumps.h"
 
+#include "engine/scene/path.h"
+#include "engine/scene/placing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -99,7 +102,45 @@ std::span<const float> flatten(const std::vector<math::vec4>& values) {
     return {&values.front().x, 4 * values.size()};
 }
 
+/// The clip of a channel, where it plays.
+const AnimationClip* clipOf(const World& world, const Animated::Channel& reference) {
+    return isActive(world.playback, reference.clip) ? &world.assets.clips.at(reference.clip)
+                                                    : nullptr;
+}
+
+std::vector<Jump> findOwnJumps(const World& world, const Animated& animated, const Finder& finder) {
+    std::vector<Jump> jumps;
+    for (const Animated::Channel& reference : animated.channels)
+        if (const AnimationClip* clip = clipOf(world, reference)) {
+            const AnimationChannel& channel = clip->channels.at(reference.channel);
+            const auto found =
+                finder.find(*clip, {channel.times, flatten(channel.values), channel.interpolation});
+            jumps.insert(jumps.end(), found.begin(), found.end());
+        }
+    return jumps;
+}
+
 } // namespace
+
+std::vector<Jump> findPlaceJumps(
+    const World& world, ecs::Entity entity, const TimeSpan& span, double longestSeconds
+) {
+    const Finder finder(world.playback, span, longestSeconds);
+    std::vector<Jump> jumps;
+    (void)findUpwards(world, entity, [&](ecs::Entity at) {
+        if (const auto* animated = findPlacing<Animated>(world.registry, at)) {
+            const auto found = findOwnJumps(world, *animated, finder);
+            jumps.insert(jumps.end(), found.begin(), found.end());
+        }
+        if (const auto* path = findPlacing<PathMotion>(world.registry, at))
+            for (const PathKey& key : path->keys)
+                if (key.cut && span.contains(key.seconds))
+                    jumps.push_back({std::nextafter(key.seconds, span.after), key.seconds});
+        return false;
+    });
+    std::sort(jumps.begin(), jumps.end());
+    return jumps;
+}
 
 ClipJumps::ClipJumps(const World& world, const TimeSpan& span, double longestSeconds) {
     const Finder finder(world.playback, span, longestSeconds);
@@ -109,20 +150,11 @@ ClipJumps::ClipJumps(const World& world, const TimeSpan& span, double longestSec
         std::vector<Jump>& jumps = known[entity.index];
         jumps.insert(jumps.end(), found.begin(), found.end());
     };
-    const auto clipOf = [&](const Animated::Channel& reference) -> const AnimationClip* {
-        return isActive(world.playback, reference.clip) ? &world.assets.clips.at(reference.clip)
-                                                        : nullptr;
-    };
     for (auto [entity, animated] : world.registry.view<Animated>())
-        for (const Animated::Channel& reference : animated.channels)
-            if (const AnimationClip* clip = clipOf(reference)) {
-                const AnimationChannel& channel = clip->channels.at(reference.channel);
-                const Keys keys{channel.times, flatten(channel.values), channel.interpolation};
-                add(mPlaces, entity, finder.find(*clip, keys));
-            }
+        add(mPlaces, entity, findOwnJumps(world, animated, finder));
     for (auto [entity, morph] : world.registry.view<MorphWeights>())
         for (const Animated::Channel& reference : morph.channels)
-            if (const AnimationClip* clip = clipOf(reference)) {
+            if (const AnimationClip* clip = clipOf(world, reference)) {
                 const WeightChannel& channel = clip->weightChannels.at(reference.channel);
                 const Keys keys{channel.times, channel.values, channel.interpolation};
                 add(mShapes, entity, finder.find(*clip, keys));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times at which clips may make entities jump: at keys of STEP interpolation, between two keys at
-// nearly the same time, and where a clip loops.
+// Times at which entities may jump: at keys of STEP interpolation, between two keys at nearly the
+// same time, and where a clip loops.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -49,5 +49,10 @@ class ClipJumps {
     Jumps mPlaces; ///< of what clips place themselves
     Jumps mShapes; ///< of morph targets' weights
 };
+
+/// Returns the jumps of what places one entity, those of paths included, in rising order. For short
+/// spans and one entity, where ClipJumps searches all.
+[[nodiscard]] std::vector<Jump>
+findPlaceJumps(const World& world, ecs::Entity entity, const TimeSpan& span, double longestSeconds);
 
 } // namespace shutter::scene

@@ -45,13 +45,18 @@ struct ParticleEmitterRow {
     uint flags;               // kParticle...
 };
 
+/// The camera at one time; between two of them the way in the picture is straight.
+struct ParticleCamera {
+    mat4 clipFromRelWorld; // without jitter
+    float s;               // shutter time; on both sides of a jump nearly the same
+};
+
 /// Push constants of a draw of particles.
 struct ParticleDraw {
     uvec2 frame;     // address of FrameConstants
     uvec2 rows;      // address of ParticleRow[]
     uvec2 emitters;  // address of ParticleEmitterRow[]
-    uvec2 cameras;   // address of mat4[]: clipFromRelWorld without jitter, at equal steps of the
-                     // exposure
+    uvec2 cameras;   // address of ParticleCamera[], at rising times
     uvec2 response;  // address of ResponseTable; 0: a box
     vec2 lightShare; // the part of the exposure's light that is drawn; the two equal: the raster
                      // instant
@@ -226,6 +231,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::ParticleRow) == 64);
 static_assert(sizeof(shutter::shader::ParticleEmitterRow) == 96);
+static_assert(sizeof(shutter::shader::ParticleCamera) == 68);
 static_assert(sizeof(shutter::shader::ParticleDraw) == 64);
 #endif
 

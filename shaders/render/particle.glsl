@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Pa
     ParticleEmitterRow rows[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ParticleCameras {
-    mat4 clipFromRelWorld[];
+    ParticleCamera rows[];
 };
 
 layout(push_constant, scalar) uniform Push { ParticleDraw draw; };
@@ -57,19 +57,20 @@ struct SeenParticle {
     float clipW;   // not above FrameConstants::forward.w: behind the camera
 };
 
-/// Between two of the table's cameras the way is straight.
 SeenParticle seeParticle(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, float s) {
     float age = particleAge(row, emitter, s, draw.rasterTime);
     vec4 place = vec4(particlePlace(row, emitter, age), 1.0f);
     ParticleCameras cameras = ParticleCameras(draw.cameras);
-    float step_ = draw.rasterTime + emitter.cameraShare * (s - draw.rasterTime);
-    float last = float(draw.cameraCount - 1u);
-    float at = step_ * last;
-    float first = clamp(floor(at), 0.0f, max(last - 1.0f, 0.0f));
-    mat4 camera = cameras.clipFromRelWorld[uint(first)];
+    float time = draw.rasterTime + emitter.cameraShare * (s - draw.rasterTime);
+    uint first = 0u;
+    while (first + 2u < draw.cameraCount && cameras.rows[first + 1u].s <= time) ++first;
+    mat4 camera = cameras.rows[first].clipFromRelWorld;
     vec4 clip = camera * place;
-    if (draw.cameraCount > 1u)
-        clip = mix(clip, cameras.clipFromRelWorld[uint(first) + 1u] * place, at - first);
+    if (draw.cameraCount > 1u) {
+        vec2 ends = vec2(cameras.rows[first].s, cameras.rows[first + 1u].s);
+        float share = saturate((time - ends.x) / max(ends.y - ends.x, 1.0e-20f));
+        clip = mix(clip, cameras.rows[first + 1u].clipFromRelWorld * place, share);
+    }
     SeenParticle seen;
     seen.clipW = clip.w;
     // Before an orthographic camera that reads instants the two are equal: it does not move.

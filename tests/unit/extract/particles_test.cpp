@@ -118,6 +118,75 @@ TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     EXPECT_NEAR(now.x, 2.0f, 1e-4f);
 }
 
+TEST_F(Particles, InheritedVelocityIsNotTakenOverAJump) {
+    emitter = {};
+    emitter.inherit = 1.0;
+    emitter.bursts = {{.seconds = 0.0, .count = 1}};
+    const auto measure = [&](const std::function<void(ecs::Entity)>& move, double seconds) {
+        reset();
+        emitter.bursts[0].seconds = seconds;
+        move(addEmitter({0, 0, -10}, emitter));
+        setTime(seconds + 0.1);
+        const ParticleTables tables = extractAll();
+        EXPECT_EQ(tables.rows.size(), 1u);
+        return tables.rows.at(0).velocityLife.x;
+    };
+    const auto steps = [&](ecs::Entity entity) {
+        animateX(entity, {0.0f, 0.5f}, {-1.5f, 1.5f}, scene::Interpolation::Step);
+    };
+    for (const double after : {0.0, 1e-7, 0.0004, 0.002})
+        EXPECT_EQ(measure(steps, 0.5 + after), 0.0f) << after;
+    const auto loops = [&](ecs::Entity entity) {
+        animateX(entity, {0.0f, 1.0f}, {-1.5f, 1.5f});
+        world.playback.loop = true;
+    };
+    for (const double after : {-0.5, 0.0, 1e-7, 0.0004, 0.002})
+        EXPECT_NEAR(measure(loops, 1.0 + after), 3.0f, 1e-3f) << after;
+    // Two keys as near to each other as exporters bake a jump.
+    const auto bakes = [&](ecs::Entity entity) {
+        animateX(entity, {0.0f, 0.5f, 0.5001f, 1.0f}, {0.0f, 1.0f, 9.0f, 10.0f});
+    };
+    for (const double after : {0.00005, 0.0002, 0.0005, 0.002})
+        EXPECT_NEAR(measure(bakes, 0.5 + after), 2.0f, 1e-2f) << after;
+    const auto records = [&](ecs::Entity entity) {
+        for (int step = 0; step <= 10; ++step) {
+            const math::Transform pose{.translation = {0.4 * step + (step > 5 ? 50.0 : 0.0), 0, 0}};
+            (step == 6 ? scene::recordJump : scene::recordMotion)(world, entity, pose, 0.1 * step);
+        }
+    };
+    for (const double after : {0.0, 0.0004, 0.05})
+        EXPECT_NEAR(measure(records, 0.6 + after), after > 0.0 ? 4.0f : 0.0f, 1e-2f) << after;
+}
+
+TEST_F(Particles, AnEmitterThatIsScaledToAPointEmitsNothing) {
+    emitter = {};
+    emitter.bursts = {{.seconds = 0.2, .count = 1}, {.seconds = 0.4, .count = 1}};
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    animateScale(entity, {0.0f, 0.3f}, {0.0f, 1.0f}, scene::Interpolation::Step);
+    setTime(0.5);
+    EXPECT_EQ(extractAll().rows.size(), 1u);
+}
+
+TEST_F(Particles, CamerasStandOnBothSidesOfAJumpAndAsFarAsScalesReach) {
+    const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
+    setTime(2.0);
+    animateX(camera, {0.0f, 1.96f}, {0.0f, 0.01f}, scene::Interpolation::Step);
+    const auto placeAt = [](const shader::ParticleCamera& one) {
+        return one.clipFromRelWorld[3].x;
+    };
+    const ParticleTables jumps = extractAll();
+    ASSERT_GT(jumps.cameras.size(), 2u);
+    float longest = 0.0f;
+    for (size_t i = 1; i < jumps.cameras.size(); ++i) {
+        EXPECT_LE(jumps.cameras[i - 1].s, jumps.cameras[i].s);
+        if (placeAt(jumps.cameras[i - 1]) != placeAt(jumps.cameras[i]))
+            longest = std::max(longest, jumps.cameras[i].s - jumps.cameras[i - 1].s);
+    }
+    EXPECT_LT(longest, 1e-4f);
+    world.registry.add(entity, scene::MotionBlur{.scale = 2.0});
+    EXPECT_LT(extractAll().cameras.front().s, -0.4f);
+}
+
 TEST_F(Particles, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
     world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
     world.assets.textures.push_back({.image = 0, .onParticles = true});
