@@ -250,6 +250,9 @@ class Device {
     /// (CHECKed).
     void collectIdle();
 
+    /// Whether it is a host's, which alone submits and waits.
+    [[nodiscard]] bool isAdopted() const { return mIsAdopted; }
+
     /// Name shown by validation messages and debuggers.
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;
 

@@ -31,7 +31,10 @@ gpu::ImageDesc describe(const TransientImageDesc& desc, VkImageUsageFlags usage)
 void TransientPool::keepFor(uint32_t width, uint32_t height) {
     if (width == mSize.width && height == mSize.height)
         return;
+    const bool holdsAny = heldBytes() > 0;
     clear();
+    if (holdsAny)
+        freeRetired();
     mSize = {width, height};
 }
 
@@ -43,8 +46,10 @@ void TransientPool::realize(const Graph& graph, const Plan& plan) {
 }
 
 void TransientPool::realizeImages(const Graph& graph, const Plan& plan) {
-    if (plan.blockBytes > mBlockBytes)
+    if (mBlock && plan.blockBytes > mBlockBytes) {
         clearImages(); // first: there may be no room for both blocks
+        freeRetired();
+    }
     mImages.beginRound();
     const auto makeKey = [&](const Placement& placement) {
         const ResourceRecord& resource = graph.resources()[placement.resource];
@@ -79,6 +84,7 @@ void TransientPool::realizeImages(const Graph& graph, const Plan& plan) {
     if (!images.empty() && (typeBits & (1u << mBlock.type())) == 0) {
         // A kind of image that this block cannot hold: one for all of them, from the start.
         clearImages();
+        freeRetired();
         realizeImages(graph, plan);
         return;
     }
@@ -135,6 +141,12 @@ void TransientPool::clearImages() {
     mImages.clear();
     mBlock = {};
     mBlockBytes = 0;
+}
+
+void TransientPool::freeRetired() {
+    // Destroyed objects live on until the next submission is done: memory would be taken twice.
+    if (!mDevice.isAdopted())
+        mDevice.collectIdle();
 }
 
 void TransientPool::clear() {

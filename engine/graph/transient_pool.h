@@ -12,8 +12,8 @@
 
 namespace shutter::graph {
 
-/// The images and buffers behind the transients of one frame in flight. They outlive the plan that
-/// requested them: plans change when motion starts or stops, and drivers may take tens of
+/// The images and buffers behind the transients of frames that do not overlap. They outlive the
+/// plan that requested them: plans change when motion starts or stops, and drivers may take tens of
 /// milliseconds to allocate. The block of memory that images share only grows; images that wait for
 /// their plan to come back cost handles, buffers no more memory than the largest plan uses.
 class TransientPool {
@@ -24,11 +24,14 @@ class TransientPool {
     TransientPool& operator=(const TransientPool&) = delete;
 
     /// Frees everything if the last frame's pictures had another size: images of that size are
-    /// unlikely to be needed soon and may be far larger. Must be called before realize().
+    /// unlikely to be needed soon and may be far larger. Must be called before realize(), which
+    /// see.
     void keepFor(uint32_t width, uint32_t height);
 
-    /// Creates the resources of `plan`. Afterwards image() and buffer() return them. The GPU must
-    /// have finished with the frame this pool was used for before. Throws gpu::DeviceError.
+    /// Creates the resources of `plan`. Afterwards image() and buffer() return them. On a device of
+    /// our own more memory is taken once the device is idle and has given back what this pool held;
+    /// nothing may have been recorded into the frame so far. On a host's, the GPU must have
+    /// finished with the frame this pool was used for before. Throws gpu::DeviceError.
     void realize(const Graph& graph, const Plan& plan);
     [[nodiscard]] const gpu::Image* image(uint32_t resource) const;   ///< null: not a transient
     [[nodiscard]] const gpu::Buffer* buffer(uint32_t resource) const; ///< null: not a transient
@@ -66,6 +69,8 @@ class TransientPool {
     void realizeBuffers(const Graph& graph, const Plan& plan);
     /// Gives back the block and the images in it.
     void clearImages();
+    /// Waits for the device and frees what was given back; on a host's device the host's frames do.
+    void freeRetired();
     MemoryRequirement askRequirement(const TransientImageDesc& desc, VkImageUsageFlags usage);
 
     gpu::Device& mDevice;

@@ -256,6 +256,18 @@ TEST_F(TransientPool, TheBlockGrowsAndIsGivenBackWhole) {
     EXPECT_EQ(pool.heldBytes(), 0u);
 }
 
+TEST_F(TransientPool, OldMemoryIsFreedBeforeMoreIsTaken) {
+    graph::TransientPool pool(device());
+    pool.keepFor(640, 360);
+    for (const uint32_t count : {1u, 5u}) {
+        const MadePlan made = makePlan(pool, count, 0);
+        pool.realize(made.graph, made.plan);
+        EXPECT_EQ(device().living().memoryBlocks, mBefore.memoryBlocks + 1) << count;
+    }
+    pool.keepFor(640, 361);
+    EXPECT_EQ(device().living().memoryBlocks, mBefore.memoryBlocks);
+}
+
 TEST_F(TransientPool, ImagesOfAnotherSizeAreFreed) {
     graph::TransientPool pool(device());
     pool.keepFor(640, 360);
