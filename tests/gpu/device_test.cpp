@@ -123,6 +123,21 @@ TEST(DeviceChoice, AWishIsAnIndexOrAPartOfANameAndWhatLacksSomethingIsPassedOver
 
 using Devices = test::GpuTest;
 
+TEST_F(Devices, AFrameTakesAnyNumberOfSpansAndTimesOfTheFirst) {
+    gpu::Frame frame(device());
+    constexpr size_t kSpans = 300;
+    frame.begin();
+    for (size_t i = 0; i < kSpans; ++i) {
+        frame.beginSpan(std::to_string(i));
+        frame.endSpan();
+    }
+    frame.submit();
+    const std::vector<gpu::PassTime> times = frame.waitForTimes();
+    ASSERT_EQ(times.size(), kSpans);
+    EXPECT_EQ(times.back().name, "299");
+    EXPECT_EQ(times.back().gpuMilliseconds, 0.0);
+}
+
 /// Vulkan defines loads past the end of a binding: lavapipe returns 0 on every device, so no
 /// picture here could show a difference.
 TEST_F(Devices, AValidatedOneChecksBounds) {
