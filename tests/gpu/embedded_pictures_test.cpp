@@ -7,8 +7,11 @@
 #include "engine/render/blended_layer.h"
 #include "tests/gpu/gbuffer_host.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -102,6 +105,53 @@ TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
 }
 
 // Validation finds whatever is destroyed or overwritten while a frame is in flight.
+/// Barriers of memory and fills as they are recorded.
+struct Recorded {
+    VkPipelineStageFlags2 from = 0;
+    VkPipelineStageFlags2 to = 0;
+    VkDeviceSize filled = 0; ///< bytes; 0: a barrier
+};
+
+std::vector<Recorded> gRecorded;
+PFN_vkCmdPipelineBarrier2 gBarrier = nullptr;
+PFN_vkCmdFillBuffer gFill = nullptr;
+
+VKAPI_ATTR void VKAPI_CALL noteBarrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
+    for (uint32_t i = 0; i < info->memoryBarrierCount; ++i)
+        gRecorded.push_back(
+            {info->pMemoryBarriers[i].srcStageMask, info->pMemoryBarriers[i].dstStageMask}
+        );
+    gBarrier(commands, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL noteFill(
+    VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize at, VkDeviceSize bytes, uint32_t value
+) {
+    gRecorded.push_back({.filled = bytes});
+    gFill(commands, buffer, at, bytes, value);
+}
+
+TEST_F(EmbeddedPictures, AFrameIsMarkedAsDoneBehindAllOfItsCommands) {
+    const HostFrame given(device(), 64, 48);
+    gRecorded.clear();
+    submit([&](VkCommandBuffer commands) {
+        given.recordClears(commands);
+        gBarrier = std::exchange(vkCmdPipelineBarrier2, noteBarrier);
+        gFill = std::exchange(vkCmdFillBuffer, noteFill);
+        EXPECT_TRUE(mBlur->record(commands, 0, given.inputs(), gather()).ok());
+        vkCmdPipelineBarrier2 = gBarrier;
+        vkCmdFillBuffer = gFill;
+    });
+    const auto mark = std::find_if(gRecorded.rbegin(), gRecorded.rend(), [](const Recorded& one) {
+        return one.filled == sizeof(uint32_t);
+    });
+    ASSERT_NE(mark, gRecorded.rend());
+    const auto before = std::next(mark);
+    ASSERT_NE(before, gRecorded.rend());
+    EXPECT_EQ(before->from, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+    EXPECT_NE(before->to & VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0u);
+}
+
 TEST_F(EmbeddedPictures, FramesInFlightMayChangeTheirSize) {
     useOwn(describeHost()); // which holds nothing yet
     std::array<gpu::Frame, 2> frames{gpu::Frame(device()), gpu::Frame(device())};

@@ -257,15 +257,22 @@ void EmbeddedMotionBlur::recordMark(uint32_t frame, VkCommandBuffer commands) {
     Slot& slot = *mSlots[frame];
     slot.isCompletionKnown = false;
     constexpr VkDeviceSize kBytes = sizeof(uint32_t);
-    vkCmdFillBuffer(commands, mMarks.handle(), frame * kBytes, kBytes, ++slot.recordings);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    // After all that was recorded: the host's stages behind the images may be others than this
+    // one's.
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    vkCmdPipelineBarrier2(commands, &dependency);
+    vkCmdFillBuffer(commands, mMarks.handle(), frame * kBytes, kBytes, ++slot.recordings);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
