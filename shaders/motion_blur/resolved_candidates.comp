@@ -43,7 +43,7 @@ shared int sLowX[kCandidatesPerTile];
 shared int sLowY[kCandidatesPerTile];
 shared int sHighX[kCandidatesPerTile];
 shared int sHighY[kCandidatesPerTile];
-shared bool sDeforms; // something in it does
+shared uint sDeforms; // 1: something in it does
 shared uint sIsFull;  // 1: there are more
 
 void note(uint slot, Extent extent) {
@@ -116,7 +116,7 @@ void addPixel(
         if (extent.deforms) {
             // Deforming entities are listed part by part (resolved_parts.comp).
             extent.isOfUse = false;
-            sDeforms = true;
+            atomicOr(sDeforms, 1u);
         }
     }
     growExtent(surface, pixel, extent);
@@ -152,7 +152,7 @@ void main() {
         sHighX[slot] = sHighY[slot] = -0x7FFFFFFF;
     }
     if (thread == 0u) {
-        sDeforms = false;
+        sDeforms = 0u;
         sIsFull = 0u;
     }
     barrier();
@@ -170,7 +170,7 @@ void main() {
         }
     listExtent(extent);
     barrier();
-    if (sDeforms && thread == 0u) listDeforming();
+    if (sDeforms != 0u && thread == 0u) listDeforming();
     uint ownTile = gl_WorkGroupID.y * countTiles(params.sizePx).x + gl_WorkGroupID.x;
     if (sIsFull != 0u) {
         // Which of them are listed is chance: none counts.

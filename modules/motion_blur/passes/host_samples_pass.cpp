@@ -10,7 +10,7 @@
 #include "modules/motion_blur/passes/ray_reveal.h"
 #include "shaders/motion_blur/host_samples_shared.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -28,8 +28,12 @@ describeSamples(const char* name, std::span<const uint32_t> spirv, size_t buffer
     return desc;
 }
 
-uint32_t capacityOf(const PassParams& params) {
-    return std::max(params.getMethod<shader::ResolvedParams>().rayLimit, 1u);
+/// Samples are chosen individually, so that their number varies about the limit. Which of them were
+/// left out of a full list would depend on the order of threads: eight standard deviations more
+/// find room.
+VkDeviceSize capacityOf(const PassParams& params) {
+    const VkDeviceSize limit = params.getMethod<shader::ResolvedParams>().rayLimit;
+    return limit + static_cast<VkDeviceSize>(8.0 * std::sqrt(double(limit))) + 1;
 }
 
 } // namespace

@@ -15,8 +15,8 @@ class HostSamplesPass {
     explicit HostSamplesPass(gpu::Device& device);
 
     /// \param found of a ResolvePass that lists pixels; gets the picture with the answers
-    /// \param params with shader::ResolvedParams whose rayLimit is the maximum number of requested
-    /// samples
+    /// \param params with shader::ResolvedParams whose rayLimit is the expected number of requested
+    /// samples, if there are as many
     /// \param own must outlive the graph
     void
     add(graph::Graph& graph,
