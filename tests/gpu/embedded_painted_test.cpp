@@ -213,6 +213,7 @@ vec4 chequer(uint32_t row, double in, uint32_t y) {
                                                              : vec4(0.1f, 0.1f, 0.3f, 1.0f);
 }
 
+constexpr World kSliding{.colorOf = chequer, .squareAt = [](double t) { return 40.0 + 17.3 * t; }};
 /// Brakes: 20 px in the first half of the exposure, 12 in the second.
 constexpr World kBraking{
     .colorOf = chequer,
@@ -252,6 +253,38 @@ TEST_F(EmbeddedDeformed, UncoveredSurfacesAreFoundInTheLastRasterWhichADumpHolds
     const auto replayed = io::readImage(folder.path() / "replayed_0001.exr");
     ASSERT_TRUE(replayed.ok()) << replayed.error().message;
     EXPECT_TRUE(test::sameBits(replayed.value(), picture));
+}
+
+TEST_F(EmbeddedDeformed, ADepthOf0NextToAMoverLosesNoSampleOfIt) {
+    const double rasterTime = 0.5;
+    const auto drawWithWallAt = [&](float depth) {
+        forgetFrames();
+        mTexels.clear();
+        Raster raster = makeRaster(kSliding, rasterTime, 0.0);
+        std::vector<vec4> motionDepth;
+        for (uint32_t y = 0; y < kPaintedSize.height; ++y)
+            for (uint32_t x = 0; x < kPaintedSize.width; ++x)
+                motionDepth.push_back(
+                    kSliding.rowAt(x, y, rasterTime) == kSquareRow
+                        ? vec4(17.3f, 0.0f, depthOf(kSquareRow), 0.0f)
+                        : vec4(0.0f, 0.0f, depth, 0.0f)
+                );
+        raster.motionDepth = &makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kPaintedSize, motionDepth);
+        // A metre at a distance of 64 m is a pixel wide.
+        const glm::dvec2 half(kPaintedSize.width / 2.0, kPaintedSize.height / 2.0);
+        for (HostCameraKey& key : raster.keys)
+            key.clipFromView =
+                math::clipFromViewPerspective(2.0 * std::atan(half.y / 64.0), half.x / half.y, 0.1);
+        for (std::vector<glm::dmat4>& matrices : raster.matrices)
+            for (glm::dmat4& matrix : matrices)
+                matrix[3].x *= -matrix[3].z / 64.0;
+        return EmbeddedTest::draw(
+            raster.describe(rasterTime), test::settingsOf("resolved", kPaintedInstants)
+        );
+    };
+    const image::Image nearest = drawWithWallAt(1e-6f);
+    EXPECT_GT(image::computePsnr(drawWithWallAt(0.0f), nearest), 70.0);
+    EXPECT_LT(image::computePsnr(drawWithWallAt(20.0f), nearest), 70.0) << "it hides the square";
 }
 
 TEST_F(EmbeddedDeformed, DeformersWithoutMotionImagesAreNoWorseThanGathered) {
