@@ -157,10 +157,10 @@ void storeEntry(uint index, ivec2 pixel, bool quads) {
 /// Whether no pixel of its quad before it is masked. Those are worked out once more, which costs less
 /// than threads that wait for each other.
 bool leadsQuad(ivec2 pixel) {
-    ivec2 first = pixel - pixel % 2;
-    int own = pixel.x % 2 + pixel.y % 2 * 2;
+    ivec2 first = pixel & ~1;
+    int own = (pixel.x & 1) + (pixel.y & 1) * 2;
     for (int i = 0; i < own; ++i)
-        if (isMasked(first + ivec2(i % 2, i / 2))) return false;
+        if (isMasked(first + ivec2(i & 1, i >> 1))) return false;
     return true;
 }
 

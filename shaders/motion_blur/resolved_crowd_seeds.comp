@@ -70,8 +70,8 @@ uint findSlot(vec2 way) {
     float fine = max(length(way) / kFineWayPx, 1.0f);
     float cellPx = kSeedCellPx * exp2(floor(log2(fine)));
     ivec2 cell = ivec2(round(way / cellPx));
-    int slot = (cell.x + 7 * cell.y) % int(kCrowdSeeds);
-    return uint(slot < 0 ? slot + int(kCrowdSeeds) : slot);
+    // Of a negative number the remainder is undefined: cells are within 16 either way.
+    return uint(cell.x + 7 * cell.y + 8 * int(kCrowdSeeds)) % kCrowdSeeds;
 }
 
 /// How the extent's first pixel goes in the course of the exposure.

@@ -43,9 +43,9 @@ uint findInnerCorners(ivec2 pixel, uint key, float depth) {
     uint corners = 0u;
     if (kHasEdges) {
         bool isSame[9];
-        for (int i = 0; i < 9; ++i) {
-            ivec2 at = pixel + ivec2(i % 3 - 1, i / 3 - 1);
-            isSame[i] = i == 4 || (fetchKey(at) == key && fetchOtherSamples(at) == 0u &&
+        for (uint i = 0u; i < 9u; ++i) {
+            ivec2 at = pixel + ivec2(i % 3u, i / 3u) - 1;
+            isSame[i] = i == 4u || (fetchKey(at) == key && fetchOtherSamples(at) == 0u &&
                                    isNear(fetchDepth(at), depth));
         }
         return (isSame[0] && isSame[1] && isSame[3] ? 1u : 0u) |

@@ -64,7 +64,7 @@ void storeRevealed(uint entry, Revealed revealed) {
     storeAt(pixel, revealed);
     if ((entry & kQuadFlag) == 0u) return;
     for (int i = 1; i < 4; ++i) { // those before its own are not masked
-        ivec2 sharing = pixel - pixel % 2 + ivec2(i % 2, i / 2);
+        ivec2 sharing = (pixel & ~1) + ivec2(i & 1, i >> 1);
         if (sharing == pixel) continue;
         if (any(greaterThanEqual(uvec2(sharing), params.sizePx))) continue;
         vec2 uv = (vec2(sharing) + 0.5f) / vec2(params.sizePx);
