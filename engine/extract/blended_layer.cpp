@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/blended_layer.h"
 
+#include "engine/extract/decals.h"
 #include "engine/extract/frame_view.h"
 #include "engine/extract/raster_record.h"
 #include "engine/extract/swept_scene.h"
+#include "engine/math/lens_pairs.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -30,6 +32,7 @@ struct Blended {
     uint32_t row = 0;
     SweptBox box;
     bool isInLayer = false;
+    bool isDecal = false; ///< moves as its background does: nothing else needs to be drawn with it
 };
 
 std::vector<Blended> listBlended(const SweptScene& scene) {
@@ -37,7 +40,7 @@ std::vector<Blended> listBlended(const SweptScene& scene) {
     const auto add = [&](uint32_t row, bool moves) {
         const SweptBox box = scene.sweep(row);
         if (scene.isInPicture(box))
-            rows.push_back({row, box, moves});
+            rows.push_back({row, box, moves, false});
     };
     for (const uint32_t row : scene.frame.movingRows)
         if (scene.hasGeometry(row, true))
@@ -62,7 +65,8 @@ void closeOver(std::vector<Blended>& rows) {
         const SweptBox box = rows[reached.back()].box;
         reached.pop_back();
         for (size_t i = 0; i < rows.size(); ++i)
-            if (!rows[i].isInLayer && overlap(rows[i].box, box)) {
+            if (!rows[i].isInLayer && overlap(rows[i].box, box) &&
+                !(rows[i].isDecal && rows[i].box.nearest > box.farthest)) {
                 rows[i].isInLayer = true;
                 reached.push_back(i);
             }
@@ -95,7 +99,7 @@ class LayerPlanner {
         for (const uint32_t row : mScene.frame.layerRows) {
             const SweptBox box = mScene.sweep(row);
             if (mScene.isInPicture(box))
-                mRows.push_back({row, box, true});
+                mRows.push_back({row, box, true, false});
         }
         if (mRows.empty())
             return {};
@@ -129,7 +133,7 @@ class LayerPlanner {
     void findDifferences() {
         // Movers seen through static glass are blurred as if the glass were not there.
         const auto behind = mScene.sweepOpaqueMovers();
-        const auto before = mScene.cameraMoves ? mScene.sweepOpaque() : behind;
+        const auto before = mScene.hasParallax() ? mScene.sweepOpaque() : behind;
         for (const Blended& one : mRows) {
             const bool moves = one.box.wayPx > kStillWayPx;
             const auto touches = [&](const SweptBox& box) { return overlap(box, one.box); };
@@ -145,7 +149,9 @@ class LayerPlanner {
     }
 
     uint32_t countInstants() const {
-        if (mLayer.readsInstants && mIsHidden)
+        // Copies lie side by side in the disc of a lens, not in a line.
+        const bool isSpread = mLimits.hasLens && mLayer.longestWayPx > kStillWayPx;
+        if (isSpread || (mLayer.readsInstants && mIsHidden))
             return mLimits.instants;
         const uint32_t least = mLayer.readsInstants ? shader::kMaxSurfaceParts : 1;
         const double wanted = std::ceil(mLayer.longestWayPx / kLayerStepPx);
@@ -181,6 +187,8 @@ class LayerPlanner {
         for (uint32_t i = 0; i < count; ++i) {
             const double s = scene::invertLight(view.exposure, (i + 0.5) / double(count));
             ViewRequest jittered = view;
+            if (mLimits.hasLens && count > 1)
+                jittered.lensPlace = placeInLens(i, count);
             if (mLimits.leastInstants > 1)
                 jittered.jitterPx += math::halton23(i + 1) - 0.5;
             const dmat4 picture = pictureFromWorldAt(mScene.world, jittered, mScene.motion, s);
@@ -195,6 +203,16 @@ class LayerPlanner {
             mTimes.push_back(s);
             mClips.push_back(clip * picture);
         }
+    }
+
+    /// Of an instant: of the sample whose depth is looked up for it, as pixels without sets of
+    /// their own have it.
+    math::dvec2 placeInLens(uint32_t instant, uint32_t count) const {
+        const uint32_t all = mLayer.readsInstants ? mLimits.instants : count;
+        const uint32_t taken = shader::takenInstant(instant, count, all);
+        return math::spreadLensPairs(all, mScene.view.lensTurn.value_or(0))
+            .at(size_t{taken} * shader::kLensSets + shader::kMiddleLensSet)
+            .place;
     }
 
     void addItems() {
@@ -255,8 +273,10 @@ class LayerPlanner {
     SweptScene mScene;
     LayerLimits mLimits;
     BlendedLayer mLayer;
-    bool mIsHidden = false;     ///< opaque surfaces may hide other parts of it at other instants
-    bool mIsCorrelated = false; ///< both the layer and its background move
+    bool mIsHidden = false; ///< opaque surfaces may hide other parts of it at other instants
+    /// Both the layer and its background move. Parts of the exposure see through all of a lens
+    /// alike.
+    bool mIsCorrelated = false;
     std::vector<Blended> mRows;
     std::vector<double> mTimes; ///< of the instants
     std::vector<dmat4> mClips;  ///< clip space from the world at each of them
@@ -282,20 +302,27 @@ std::vector<uint32_t> findLayerRows(
     const SceneLayout& layout,
     const ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame
+    const ExtractedFrame& frame,
+    bool hasLens
 ) {
     if (!layout.hasBlended)
         return {};
-    const SweptScene scene({world, layout, view, motion, frame});
+    const SweptScene scene({world, layout, view, motion, frame, hasLens});
     std::vector<Blended> rows = listBlended(scene);
     if (rows.empty())
         return {};
     const auto movers = scene.sweepOpaqueMovers();
-    for (Blended& one : rows)
+    DecalSearch decals(scene);
+    for (Blended& one : rows) {
         one.isInLayer = one.isInLayer || !movers ||
                         std::any_of(movers->begin(), movers->end(), [&](const SweptBox& mover) {
                             return overlap(mover, one.box);
                         });
+        if (one.isInLayer || !scene.hasParallax())
+            continue;
+        one.isDecal = decals.movesWithBackground(one.row);
+        one.isInLayer = !one.isDecal;
+    }
     closeOver(rows);
     std::vector<uint32_t> result;
     for (const Blended& one : rows)
@@ -315,7 +342,7 @@ BlendedLayer planBlendedLayer(
 ) {
     if (frame.layerRows.empty())
         return {};
-    return LayerPlanner({world, layout, view, motion, frame}, limits).run();
+    return LayerPlanner({world, layout, view, motion, frame, limits.hasLens}, limits).run();
 }
 
 } // namespace shutter::extract

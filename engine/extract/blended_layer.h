@@ -19,15 +19,18 @@ inline constexpr double kLayerStepPx = 2.5;
 
 /// Returns the rows of the entity table whose blended surfaces leave the raster, in rising order:
 /// those that move or deform in the world; those whose screen box over the exposure overlaps a
-/// mover's; and those that may lie in front of or behind such a surface, so that the drawing order
-/// is preserved. Empty where the raster instant shows the blended surfaces correctly.
+/// mover's; static ones that a moving camera or its lens sees move against their background
+/// (decals.h); and those that may lie in front of or behind such a surface, so that the drawing
+/// order is preserved. Empty where the raster instant shows the blended surfaces correctly.
 /// \param motion of the view's exposure
+/// \param hasLens the layer is drawn from places of the camera's lens
 [[nodiscard]] std::vector<uint32_t> findLayerRows(
     const scene::World& world,
     const SceneLayout& layout,
     const ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame
+    const ExtractedFrame& frame,
+    bool hasLens = false
 );
 
 struct LayerItem {
@@ -64,6 +67,8 @@ struct LayerLimits {
     uint32_t leastInstants = 1;
     bool findsInstants = false; ///< the method reads depths and colours of instants
     uint64_t surfaceBytes = 0;  ///< most memory for them
+    /// Each instant has a place of the camera's lens: that of the method's samples.
+    bool hasLens = false;
 };
 
 /// As many of the wanted instants as a buffer of that size holds; 0: not even one.

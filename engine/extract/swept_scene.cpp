@@ -73,7 +73,29 @@ SweptScene::SweptScene(const SweptSource& source)
         mTimes[i] = double(i) / double(kTimes - 1);
         mPictures[i] = pictureFromWorldAt(world, view, motion, mTimes[i]);
         cameraMoves = cameraMoves || mPictures[i] != mPictures[0];
+        if (!hasLens || !isPerspective)
+            continue;
+        const math::ThinLens lens =
+            describeLens(motion, world.registry.get<scene::Camera>(view.camera), view, mTimes[i]);
+        const double squeeze = std::max(double(lens.aperture.squeeze), 1.0);
+        mLenses[i] = {lens.radius * squeeze * lens.pixelsPerUnit.y, 1.0 / lens.focusDistance};
+        mIsLensOpen = mIsLensOpen || lens.radius > 0.0;
     }
+}
+
+double SweptScene::measureParallax(const dvec4& nearer, const dvec4& beyond) const {
+    double parallax = 0.0;
+    for (size_t i = 0; i < kTimes; ++i) {
+        const dvec4 a = mPictures[i] * nearer;
+        const dvec4 b = mPictures[i] * beyond;
+        const dvec2 q = isPerspective ? dvec2(a.z, b.z) : dvec2(1.0);
+        // Written so that NaN is not known, too.
+        if (!(q.x > kMinBoxDepth && q.y > 0.0))
+            return kFar;
+        const double lens = mLenses[i].x * std::abs(nearer.w / q.x - beyond.w / q.y);
+        parallax = std::max(parallax, glm::distance(dvec2(a) / q.x, dvec2(b) / q.y) + lens);
+    }
+    return parallax;
 }
 
 bool SweptScene::moves(uint32_t row) const {
@@ -97,6 +119,7 @@ SweptBox SweptScene::sweep(uint32_t row) const {
     SweptBox box;
     std::array<dvec2, 8> before{};
     std::array<double, 8> ways{};
+    double spreads = 0.0;
     bool isEverywhere = false;
     for (size_t i = 0; i < kTimes; ++i) {
         const dmat4 picture = mPictures[i] * (isStatic ? frame.worldFromObject[row]
@@ -120,11 +143,13 @@ SweptBox SweptScene::sweep(uint32_t row) const {
             if (i > 0)
                 ways[corner] += glm::distance(place, before[corner]);
             before[corner] = place;
-            box.least = glm::min(box.least, place - kSweptMarginPx);
-            box.most = glm::max(box.most, place + kSweptMarginPx);
+            const double spread = mLenses[i].x * std::abs(mLenses[i].y - 1.0 / q);
+            spreads = std::max(spreads, 2.0 * spread);
+            box.least = glm::min(box.least, place - (kSweptMarginPx + spread));
+            box.most = glm::max(box.most, place + (kSweptMarginPx + spread));
         }
     }
-    box.wayPx = *std::max_element(ways.begin(), ways.end());
+    box.wayPx = *std::max_element(ways.begin(), ways.end()) + spreads;
     if (shape && shape->changes) {
         const double depth = isPerspective ? std::max(box.nearest, kMinBoxDepth) : 1.0;
         box.wayPx += measureDeformation(*shape) * measureFocalLength(mPictures[0]) / depth;

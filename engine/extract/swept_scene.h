@@ -26,7 +26,8 @@ struct SweptBox {
     math::dvec2 most{-std::numeric_limits<double>::infinity()};
     double nearest = std::numeric_limits<double>::infinity(); ///< metres along the view
     double farthest = -std::numeric_limits<double>::infinity();
-    double wayPx = 0.0; ///< longest, of a corner; infinity: not known
+    /// Longest, of a corner, and the width of what the lens spreads it over; infinity: not known.
+    double wayPx = 0.0;
 
     /// Grows to the whole picture.
     void spread();
@@ -41,6 +42,7 @@ struct SweptSource {
     const ViewRequest& view;
     const scene::ExposureMotion& motion; ///< of the view's exposure
     const ExtractedFrame& frame;         ///< of the view
+    bool hasLens = false;                ///< all places of the camera's lens see the picture
 };
 
 class SweptScene : public SweptSource {
@@ -53,11 +55,19 @@ class SweptScene : public SweptSource {
     [[nodiscard]] bool hasGeometry(uint32_t row, bool isBlended) const;
     [[nodiscard]] SweptBox sweep(uint32_t row) const;
     [[nodiscard]] bool isInPicture(const SweptBox& box) const;
+    /// Greatest distance in the picture, pixels, that two static points which the raster shows at
+    /// one place have at the same instant and place of the lens. Infinity: not known. \param beyond
+    /// with w = 0 a direction, infinitely far away
+    [[nodiscard]] double
+    measureParallax(const math::dvec4& nearer, const math::dvec4& beyond) const;
     /// Boxes of the rows with opaque surfaces that move in the world; nullopt: more than are swept
     /// one by one.
     [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const;
     /// Boxes of all rows with opaque surfaces that the raster shows; nullopt as above.
     [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaque() const;
+
+    /// Whether measureParallax() is above 0 for some points.
+    [[nodiscard]] bool hasParallax() const { return cameraMoves || mIsLensOpen; }
 
     const bool isPerspective;
     bool cameraMoves = false;
@@ -72,6 +82,9 @@ class SweptScene : public SweptSource {
 
     std::array<double, kTimes> mTimes{};
     std::array<math::dmat4, kTimes> mPictures{};
+    /// Half the opening's longer side, pixels from 1 m away; and 1 / the focus distance.
+    std::array<math::dvec2, kTimes> mLenses{};
+    bool mIsLensOpen = false;
 };
 
 } // namespace shutter::extract

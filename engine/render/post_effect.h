@@ -177,6 +177,9 @@ class PostEffect {
     /// ExtractedFrame::layerRows are then in no raster.
     [[nodiscard]] virtual core::Decision askLayer(const ViewFacts&) const { return {}; }
 
+    /// Whether it draws them from places of the camera's lens, as it does all else.
+    [[nodiscard]] virtual bool seesThroughLens(const ViewFacts&) const { return false; }
+
     /// The same for a raster of the world at the other end of the exposure
     /// (PostContext::secondRaster).
     [[nodiscard]] virtual core::Decision askSecondRaster(const ViewFacts&) const { return {}; }

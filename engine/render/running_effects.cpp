@@ -68,15 +68,21 @@ core::Decision Renderer::decideLayer(
     core::Decision decision = effect.askLayer(context.facts);
     if (!decision.run)
         return decision;
-    frame.layerRows =
-        extract::findLayerRows(context.world, mScene.layout(), context.view, context.motion, frame);
+    frame.layerRows = extract::findLayerRows(
+        context.world,
+        mScene.layout(),
+        context.view,
+        context.motion,
+        frame,
+        effect.seesThroughLens(context.facts)
+    );
     if (frame.layerRows.empty())
         return {
             false,
-            mScene.layout().hasBlended ? "no blended surface moves, and nothing moves near one"
+            mScene.layout().hasBlended ? "blended surfaces move as what is around them does"
                                        : "the scene has no blended surface"};
     decision.reason = core::countOf(frame.layerRows.size(), "entity has", "entities have") +
-                      " blended surfaces that move or that something moves near";
+                      " blended surfaces that do not move as what is around them does";
     return decision;
 }
 

@@ -178,6 +178,7 @@ void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->sampleUnit == SampleUnit::Instants)
         limits.instants = settings().sampleCount;
     limits.findsInstants = settings().method->readsInstantMotions;
+    limits.hasLens = seesThroughLens(context.facts);
     mBlended.extract(context, limits);
 }
 

@@ -58,6 +58,8 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] bool readsNormals() const override;
     /// For methods that blur the raster.
     [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
+    /// Whether its samples have places of the lens.
+    [[nodiscard]] bool seesThroughLens(const render::ViewFacts& facts) const override;
 
     /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are
     /// shown.
@@ -90,8 +92,6 @@ class MotionBlurPlugin : public render::PostEffect {
         return mStandIn ? *mStandIn : mBudget.current().settings;
     }
 
-    /// Whether its samples have places of the lens.
-    [[nodiscard]] bool seesThroughLens(const render::ViewFacts& facts) const;
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
 

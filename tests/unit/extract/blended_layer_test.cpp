@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Which blended surfaces leave the raster, and how they are drawn.
 #include "engine/extract/blended_layer.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace shutter::extract {
@@ -70,8 +73,8 @@ TEST_F(BlendedLayers, GlassThatAMotionMayPassOrThatIsBeforeSuchGlassLeavesTheRas
           {{-9, 0, -12}}}},
         {"surfaces outside the picture, and those that enter it within the exposure",
          {{{200, 0, -10}, {1, 0, 0}}, {{14, 0, -10}, {-6, 0, 0}, true, true}}},
-        {"static surfaces before a moving camera",
-         {{{0, 0, -20}}, {{0, 0, -30}, {}, false}},
+        {"static surfaces that a moving camera sees move against what lies behind them",
+         {{{0, 0, -20}, {}, true, true}, {{0, 0, -30}, {}, false}},
          {1, 0, 0}},
         {"a visor that rides with the camera moves in the world",
          {{{3, 0, -10}, {1, 0, 0}, true, true}},
@@ -92,6 +95,83 @@ TEST_F(BlendedLayers, GlassThatAMotionMayPassOrThatIsBeforeSuchGlassLeavesTheRas
         EXPECT_TRUE(findLayer().empty()) << "a world without blended geometries is not searched";
         layout.hasBlended = true;
     }
+}
+
+TEST_F(BlendedLayers, StaticGlassThatMovesAsItsBackgroundInThePictureStaysInTheRaster) {
+    const auto addQuad = [&](scene::AlphaMode alphaMode) {
+        scene::Mesh& mesh = world.assets.meshes.emplace_back();
+        scene::Primitive& quad = mesh.primitives.emplace_back();
+        quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        quad.indices = {0, 1, 2, 0, 2, 3};
+        return addMesh(alphaMode, 1);
+    };
+
+    struct Case {
+        const char* name;
+        double depth; ///< of the glass; the wall's is 10 m
+        dvec3 cameraVelocity{0.0};
+        dvec3 cameraTurn{0.0};
+        bool hasLens = false;
+        bool isInLayer = false;
+        dvec3 wallPlace{0.0, 0.0, -10.0};
+    };
+
+    const Case cases[] = {
+        {"a decal before a moving camera", 9.999, {2, 0, 0}},
+        {"a decal that lies in the wall, within rounding", 10.0, {2, 0, 0}},
+        {"a decal of a wall out of focus", 9.999, {}, {}, true},
+        {"glass before a camera that turns", 5.0, {}, {0, 0.2, 0}},
+        {"glass before a camera that rests, with a pinhole", 5.0},
+        {"glass before a moving camera", 5.0, {2, 0, 0}, {}, false, true},
+        {"glass before a camera that comes nearer", 5.0, {0, 0, -1}, {}, false, true},
+        {"glass before a lens", 5.0, {}, {}, true, true},
+        {"glass beside the wall", 9.999, {2, 0, 0}, {}, false, true, {4.0, 0.0, -10.0}}};
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.name);
+        reset();
+        layout = {};
+        const uint32_t wall = addQuad(scene::AlphaMode::Opaque);
+        const uint32_t pane = addQuad(scene::AlphaMode::Blend);
+        layout.hasBlended = true;
+        world.registry.add(camera, scene::LinearVelocity{each.cameraVelocity});
+        world.registry.add(camera, scene::AngularVelocity{each.cameraTurn});
+        world.registry.add(camera, scene::CameraLens{.fStop = 0.02, .focusDistance = 3.0});
+        math::Transform large;
+        large.translation = each.wallPlace;
+        large.scale = dvec3(3.0);
+        addBox(large, wall);
+        addBox({0, 0, -each.depth}, pane);
+        ExtractedFrame frame = extract();
+        const auto rows = findLayerRows(world, layout, request, motion(), frame, each.hasLens);
+        EXPECT_EQ(!rows.empty(), each.isInLayer);
+    }
+}
+
+TEST_F(BlendedLayers, InstantsOfALensHavePlacesOfItAndReachOverItsCircles) {
+    world.registry.add(camera, scene::CameraLens{.fStop = 0.02, .focusDistance = 40.0});
+    addBox({0, 0, -10}, glass);
+    ExtractedFrame frame = extract();
+    LayerLimits limits = limitsOf(15);
+    limits.hasLens = true;
+    frame.layerRows = findLayerRows(world, layout, request, motion(), frame, true);
+    const BlendedLayer layer = planBlendedLayer(world, layout, request, motion(), frame, limits);
+    ASSERT_EQ(layer.instants.size(), 15u);
+    double mean = 0.0;
+    double widest = 0.0;
+    for (const shader::LayerPlace& place : layer.places) {
+        const math::vec4 clip = place.clipFromObject * math::vec4(0, 0, 0, 1);
+        mean += double(clip.x / clip.w) / 15.0;
+        widest = std::max(widest, std::abs(double(clip.x / clip.w)));
+    }
+    // Half the circle of confusion at 10 m, in half widths of the picture.
+    const auto& lens = world.registry.get<scene::CameraLens>(camera);
+    const double yFov = world.registry.get<scene::Camera>(camera).yFov;
+    const double radius = scene::computeLensRadius(lens, yFov) * (1.0 / 10.0 - 1.0 / 40.0) /
+                          (2.0 * std::tan(yFov / 2.0));
+    EXPECT_NEAR(mean, 0.0, 0.15 * radius);
+    EXPECT_LE(widest, 1.001 * radius);
+    EXPECT_GE(widest, 0.8 * radius);
+    EXPECT_GE(layer.longestWayPx, 2.0 * radius * 100.0);
 }
 
 TEST_F(BlendedLayers, InstantsFollowTheLongestMotion) {
