@@ -30,7 +30,9 @@ using M = MethodArguments;
 constexpr std::array kRows = {
     makeRow<&M::method>("--method", "method, see `shutter info --methods`; default resolved"),
     makeRow<&M::preset>(
-        "--preset", "off, performance, balanced, quality or paper: a method and its settings"
+        "--preset",
+        "off, performance, balanced, quality or paper: a method and its settings; the middle three "
+        "also set --aa, --shadows and --bloom of `render` and `film`, unless these are given"
     ),
     makeRow<&M::samples>(
         "--samples",
@@ -150,7 +152,7 @@ Status applySetting(
     const std::vector<std::string_view>& known = method.blur->settings;
     if (std::find(known.begin(), known.end(), name) == known.end())
         return makeError(
-            "--set '{}': method {} has no such setting, it has {}",
+            "--set '{}': method {} has no such setting, it has {}{}",
             name,
             method.name,
             fmt::join(known, ", "),

@@ -228,7 +228,10 @@ Status interpretPart(
         );
     if (count > 1 && shot.picture.antiAliasing == AntiAliasing::Taa)
         return makeError(
-            "--aa taa makes a frame depend on all before it, which parts do not share: use --aa box"
+            "{} makes a frame depend on all before it, which parts do not share: use --aa box",
+            all.shot.typed.contains("--aa")
+                ? "--aa taa"
+                : "--preset " + all.method.preset + " sets --aa taa, which"
         );
     options.part = FramePart{part - 1, count};
     return {};
@@ -333,11 +336,34 @@ Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
     );
 }
 
+/// The shot's arguments with what the preset sets, except where an option was typed.
+ShotArguments applyPreset(const RenderArguments& arguments) {
+    ShotArguments shot = arguments.shot;
+    const PresetEffects* effects = findPresetEffects(arguments.method.preset);
+    if (!effects)
+        return shot;
+    if (!shot.typed.contains("--aa"))
+        shot.picture.antiAliasing = effects->antiAliasing;
+    if (!shot.typed.contains("--shadows"))
+        shot.picture.shadows.mode = effects->shadows;
+    if (!shot.typed.contains("--bloom"))
+        shot.picture.bloom.share = effects->bloomShare;
+    return shot;
+}
+
+bool usesLens(const RenderArguments& arguments) {
+    const PresetEffects* effects = findPresetEffects(arguments.method.preset);
+    const ShotArguments& shot = arguments.shot;
+    return !effects || effects->depthOfField || shot.typed.contains("--fstop") ||
+           shot.typed.contains("--focus") || !shot.focusEntity.empty();
+}
+
 } // namespace
 
 core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     RenderOptions options;
-    auto shot = interpret(arguments.shot);
+    const ShotArguments shotArguments = applyPreset(arguments);
+    auto shot = interpret(shotArguments);
     if (!shot)
         return shot.error();
     options.shot = std::move(shot).value();
@@ -345,7 +371,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     if (!method)
         return method.error();
     options.method = std::move(method).value();
-    options.shot.usesLens = true;
+    options.shot.usesLens = usesLens(arguments);
     SHUTTER_TRY(checkPixel(options.shot, *options.method.method));
     SHUTTER_TRY(checkLens(options.shot, *options.method.method));
     SHUTTER_TRY(checkAntiAliasing(options.shot, *options.method.method));
@@ -356,7 +382,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.device = arguments.device;
     options.fingerprint = fmt::format(
         "{} {} {} --rays={}",
-        describe(arguments.shot),
+        describe(shotArguments),
         describe(arguments.method),
         describeRows(OptionRows<O>(kOutputRows), arguments.output),
         kTierWords[static_cast<size_t>(options.device.bestTier)]

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/picture_settings.h"
 
+#include <algorithm>
 #include <array>
 
 namespace shutter::game {
+
+const PresetEffects* findPresetEffects(std::string_view preset) {
+    using extract::ShadowMode;
+    static constexpr std::array kEffects = {
+        PresetEffects{"performance", AntiAliasing::None, ShadowMode::Blurred, 0.0f, false},
+        PresetEffects{"balanced", AntiAliasing::Taa, ShadowMode::Blurred, 0.04f, true},
+        PresetEffects{"quality", AntiAliasing::Taa, ShadowMode::Blurred, 0.04f, true},
+    };
+    const auto found =
+        std::find_if(kEffects.begin(), kEffects.end(), [&](const PresetEffects& effects) {
+            return effects.preset == preset;
+        });
+    return found == kEffects.end() ? nullptr : &*found;
+}
 
 core::SettingRows<PictureSettings> listPictureRows() {
     using S = PictureSettings;

@@ -11,6 +11,8 @@
 #include "modules/tonemap/tonemap.h"
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace shutter::game {
 
@@ -29,6 +31,19 @@ struct PictureSettings {
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};
 };
+
+/// What a preset sets besides the method and the blur, the same in `render` and `play`. An
+/// environment is drawn where there is one.
+struct PresetEffects {
+    std::string_view preset;
+    AntiAliasing antiAliasing;
+    extract::ShadowMode shadows;
+    float bloomShare;
+    bool depthOfField; ///< false: cameras are pinholes
+};
+
+/// Null: the preset is about the blur alone, or there is none of this name.
+[[nodiscard]] const PresetEffects* findPresetEffects(std::string_view preset);
 
 /// Rows of what belongs to no module.
 [[nodiscard]] core::SettingRows<PictureSettings> listPictureRows();

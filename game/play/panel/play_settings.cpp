@@ -50,31 +50,6 @@ bool isSharp(const Preset& preset) {
     return std::string_view(preset.method) == "sharp";
 }
 
-/// A preset's settings of the effects other than the blur.
-struct PresetEffects {
-    std::string_view preset;
-    AntiAliasing antiAliasing;
-    extract::ShadowMode shadows;
-    float bloomShare;
-    bool depthOfField;
-};
-
-constexpr std::array kPresetEffects = {
-    PresetEffects{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f, false},
-    PresetEffects{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f, true},
-    PresetEffects{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f, true},
-};
-
-/// Null: the preset is about the blur alone.
-const PresetEffects* findPresetEffects(const Preset& preset) {
-    const auto found = std::find_if(
-        kPresetEffects.begin(),
-        kPresetEffects.end(),
-        [&](const PresetEffects& effects) { return effects.preset == preset.name; }
-    );
-    return found == kPresetEffects.end() ? nullptr : &*found;
-}
-
 bool isSeen(const PresetEffects* effects, const PlaySettings& settings) {
     return !effects || (settings.picture.antiAliasing == effects->antiAliasing &&
                         settings.picture.shadows.mode == effects->shadows && settings.environment &&
@@ -88,7 +63,7 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     settings.method = preset.method;
     if (!isSharp(preset))
         settings.blur = preset.blur;
-    const PresetEffects* effects = findPresetEffects(preset);
+    const PresetEffects* effects = findPresetEffects(preset.name);
     if (!effects)
         return;
     settings.picture.antiAliasing = effects->antiAliasing;
@@ -99,7 +74,7 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
 }
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
-    return settings.method == preset.method && isSeen(findPresetEffects(preset), settings) &&
+    return settings.method == preset.method && isSeen(findPresetEffects(preset.name), settings) &&
            (isSharp(preset) ||
             core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
 }

@@ -171,6 +171,7 @@ TEST(RenderOptions, OptionsThatDoNotFitTogetherAreRefusedWithTheReason) {
     const std::string film = kFilm;
     const std::pair<const char*, std::string> kPairs[] = {
         {"--aa taa", frames + " --part=1/2 --aa=taa"},
+        {"--preset balanced sets --aa taa", frames + " --part=1/2 --preset=balanced"},
         {"--budget", frames + " --part=1/2 --budget=8"},
         {"--part", frames + " --part=1/2 --stats=s.json"},
         {"--part", frames + " --part=1/2 --explain"},
@@ -281,6 +282,31 @@ TEST(RenderOptions, ValuesOfThePictureAreTaken) {
     EXPECT_EQ(picture("--tonemap=none").tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(picture("--unlit").tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(picture("--ev=-32.0").tonemap.exposureValue, -32.0);
+}
+
+TEST(RenderOptions, APresetSetsWhatItSetsInPlayUnlessAnOptionIsGiven) {
+    const auto picture = [](const std::string& words) { return accept(words).shot.picture; };
+    for (const std::string preset : {"balanced", "quality"}) {
+        const PictureSettings settings = picture("--preset=" + preset);
+        EXPECT_EQ(settings.antiAliasing, AntiAliasing::Taa) << preset;
+        EXPECT_EQ(settings.shadows.mode, extract::ShadowMode::Blurred) << preset;
+        EXPECT_EQ(settings.bloom.share, 0.04f) << preset;
+    }
+    const PictureSettings own =
+        picture("--preset=balanced --aa=none --shadows=sharp --bloom=0 --shadow-map-size=2048");
+    EXPECT_EQ(own.antiAliasing, AntiAliasing::None);
+    EXPECT_EQ(own.shadows.mode, extract::ShadowMode::Sharp);
+    EXPECT_EQ(own.shadows.mapSize, 2048u);
+    EXPECT_EQ(own.bloom.share, 0.0f);
+    for (const std::string preset : {"off", "paper"})
+        EXPECT_EQ(describe(picture("--preset=" + preset)), describe(PictureSettings())) << preset;
+    EXPECT_EQ(picture("--preset=performance").shadows.mode, extract::ShadowMode::Blurred);
+    EXPECT_FALSE(accept("--preset=performance").shot.usesLens);
+    EXPECT_TRUE(accept("--preset=performance --fstop=2.8").shot.usesLens);
+    EXPECT_TRUE(accept("--preset=balanced").shot.usesLens);
+    EXPECT_NE(
+        accept("--preset=balanced").fingerprint, accept("--preset=balanced --aa=none").fingerprint
+    );
 }
 
 TEST(RenderOptions, ValuesOfTheShutterAreTaken) {
