@@ -15,10 +15,15 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 constexpr double kSilentSeconds = 1.0;
 constexpr double kRedrawSeconds = 0.1;
+constexpr double kLineSeconds = 10.0;
 constexpr int kBarCells = 30;
 
 Progress::TimePoint readClock() {
     return std::chrono::steady_clock::now();
+}
+
+std::string formatSecondsLeft(double share, double elapsedSeconds) {
+    return share > 0.0 ? fmt::format("{:.0f}", elapsedSeconds * (1.0 - share) / share) : "?";
 }
 
 } // namespace
@@ -27,8 +32,7 @@ std::string
 formatProgress(std::string_view label, uint64_t done, uint64_t total, double elapsedSeconds) {
     const double share = static_cast<double>(done) / static_cast<double>(total);
     const int filled = static_cast<int>(share * kBarCells);
-    const std::string left =
-        done > 0 ? fmt::format("{:.0f}", elapsedSeconds * (1.0 - share) / share) : "?";
+    const std::string left = formatSecondsLeft(share, elapsedSeconds);
     return fmt::format(
         "{} [{:=<{}}{: <{}}] {}/{}  {} s left",
         label,
@@ -65,13 +69,25 @@ void Progress::startPart(std::string_view part) {
 
 void Progress::advance(uint64_t steps) {
     mDone = std::min(mDone + steps, mTotal);
-    if (!mEnabled)
+    if (!mEnabled && !mPrintsLines)
         return;
     const TimePoint now = mClock();
     const double elapsed = Seconds(now - mStart).count();
-    if (elapsed < kSilentSeconds || Seconds(now - mLastDraw).count() < kRedrawSeconds)
+    const double pause = Seconds(now - mLastDraw).count();
+    if (elapsed < kSilentSeconds || pause < (mEnabled ? kRedrawSeconds : kLineSeconds))
         return;
     mLastDraw = now;
+    if (!mEnabled) {
+        fmt::print(
+            mOutput,
+            "shutter: {}: {} % done, {} s left\n",
+            mLabel,
+            100 * mDone / mTotal,
+            formatSecondsLeft(double(mDone) / double(mTotal), elapsed)
+        );
+        std::fflush(mOutput);
+        return;
+    }
     mDrawn = true;
     fmt::print(mOutput, "\r\x1b[K{}", formatProgress(mLabel, mDone, mTotal, elapsed));
     std::fflush(mOutput);

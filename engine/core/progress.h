@@ -15,7 +15,8 @@ namespace shutter::core {
 formatProgress(std::string_view label, uint64_t done, uint64_t total, double elapsedSeconds);
 
 /// A bar with the time left on stderr, for work that takes over a second; silent for the first
-/// second. Where the output is no terminal, there is no bar, but a line for each part of the work.
+/// second. Where the output is no terminal, there is no bar, but lines if the work has parts or
+/// wants them.
 class Progress {
   public:
     using TimePoint = std::chrono::steady_clock::time_point;
@@ -34,6 +35,10 @@ class Progress {
     /// Advances by completed steps.
     void advance(uint64_t steps = 1);
 
+    /// From now on, where the output is no terminal, advance() prints a line at most every ten
+    /// seconds, "shutter: rendering: 12 % done, 230 s left".
+    void printLines() { mPrintsLines = true; }
+
     /// Names the part of the work that begins: where the output is no terminal, prints one line
     /// with it and the share that is done, "shutter: measuring vase: gather; 12 % done".
     void startPart(std::string_view part);
@@ -45,6 +50,7 @@ class Progress {
     std::FILE* mOutput;
     Clock mClock;
     bool mEnabled;
+    bool mPrintsLines = false;
     bool mDrawn = false;
     TimePoint mStart;
     TimePoint mLastDraw;

@@ -98,9 +98,21 @@ last_sentence() {
 }
 
 # Prints how many frames the parts' journals hold.
-show_progress() {
-    printf '\r%s of %s frames are drawn' \
-        "$(cat "$journal".part_* 2>/dev/null | grep -c '"frame"' || true)" "$frames" >&2
+count_drawn() {
+    cat "$journal".part_* 2>/dev/null | grep -c '"frame"' || true
+}
+
+# Prints progress for as long as it runs: on a terminal every second, else a line every ten.
+report_progress() {
+    local pause=10 ends='\n' begun=$SECONDS before drawn left
+    [[ ! -t 2 ]] || pause=1 ends='\r'
+    before=$(count_drawn)
+    # No child such as `sleep` outlives this process and holds stderr open.
+    while ! read -rt "$pause" <> <(:); do
+        drawn=$(count_drawn) left='?'
+        ((drawn <= before)) || left=$(((SECONDS - begun) * (frames - drawn) / (drawn - before)))
+        printf "shutter: rendering: %s of %s frames are drawn, %s s left$ends" "$drawn" "$frames" "$left" >&2
+    done
 }
 
 # Draws every --jobs-th part from the $1-th on, until one fails anywhere; writes why to the file failed.
@@ -127,21 +139,18 @@ work_here() {
 
 # Draws the parts by --jobs processes at a time, and makes the film.
 draw_here() {
-    local workers=() place
+    local workers=() reporter place
     rm -f "$work/failed"
     for ((place = 0; place < jobs; ++place)); do
         work_here "$place" &
         workers+=($!)
     done
+    report_progress &
+    reporter=$!
     # The processes end with this one.
-    trap 'kill "${workers[@]}" 2>/dev/null; wait; exit 130' INT TERM
-    if [[ -t 2 ]]; then
-        while kill -0 "${workers[@]}" 2>/dev/null; do
-            show_progress
-            sleep 1
-        done
-    fi
-    wait
+    trap 'kill "$reporter" "${workers[@]}" 2>/dev/null; wait; exit 130' INT TERM
+    wait "${workers[@]}" || true
+    kill "$reporter" && { wait "$reporter" 2>/dev/null || true; }
     [[ ! -t 2 ]] || printf '\r\033[K' >&2
     [[ ! -e $work/failed ]] || fail 1 "$(<"$work/failed"); the same command goes on where it stopped"
     "$shutter" render "${words[@]}" >"$work/finish.log" 2>&1 ||
@@ -210,14 +219,14 @@ follow() {
         # A controller that restarts is back within a minute.
         failures=$((status == 0 ? 0 : failures + 1))
         ((failures < 30)) || fail 1 "squeue does not answer"
-        [[ ! -t 2 ]] || show_progress
+        [[ ! -t 2 ]] || printf '\r%s of %s frames are drawn' "$(count_drawn)" "$frames" >&2
         sleep 2
     done
     [[ ! -t 2 ]] || printf '\r\033[K' >&2
     [[ -e $work/jobs ]] || return 0
     printed='a job was ended and printed nothing'
     for log in "$work"/part_*.log "$work/finish.log"; do
-        if [[ $(tail -n 1 "$log" 2>/dev/null) == 'shutter: '* ]]; then
+        if [[ $(tail -n 1 "$log" 2>/dev/null | grep -v '^shutter: rendering:') == 'shutter: '* ]]; then
             printed="$(basename "$log" .log | tr _ ' ') reports: $(last_sentence "$log")"
             break
         fi

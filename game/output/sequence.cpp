@@ -216,6 +216,9 @@ class Sequence {
             count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.picture.antiAliasing) *
                 draws
         );
+        // A part's goes into the log of a scheduler, which knows the progress of the whole.
+        if (mOptions.shot.isSequence && !mOptions.output.part)
+            progress.printLines();
         for (size_t i = 0; i < mFrames.size(); ++i)
             if (mIsComplete.empty() || !mIsComplete[i]) {
                 SHUTTER_TRY(drawFrame(mFrames[i], progress));

@@ -60,7 +60,7 @@ class Cli : public testing::Test {
 
     void expectRefusals(const std::vector<Refusal>& refusals) const;
 
-    /// Runs and expects exit status 0 and nothing on stderr.
+    /// Runs and expects exit status 0 and nothing on stderr but progress.
     Outcome expectSuccess(const Arguments& arguments) const;
 
     /// The same, and all of `parts` on stdout. \return stdout

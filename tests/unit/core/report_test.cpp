@@ -141,23 +141,45 @@ TEST(Progress, TheBarIsSilentForASecondThenDrawnAtMostTenTimesASecondAndCleanedU
         << "of more steps than announced the bar stays at its end";
 }
 
-TEST(Progress, OnlyPartsAreLinesWhereTheOutputIsNoTerminal) {
+/// What is written to a file, which is no terminal.
+template <class Write> std::string collectLines(const Write& write) {
     std::FILE* file = std::tmpfile();
-    ASSERT_NE(file, nullptr);
-    {
+    if (!file)
+        return "no file";
+    write(file);
+    std::rewind(file);
+    std::string written(200, '\0');
+    written.resize(std::fread(written.data(), 1, written.size(), file));
+    std::fclose(file);
+    return written;
+}
+
+TEST(Progress, OnlyPartsAreLinesWhereTheOutputIsNoTerminal) {
+    const std::string written = collectLines([](std::FILE* file) {
         Progress progress("measuring", 3, file, fakeClock);
         progress.startPart("vase: gather");
         passSeconds(10.0);
         progress.advance(2);
         progress.startPart("vase: hybrid");
-    }
-    std::rewind(file);
-    std::string written(200, '\0');
-    written.resize(std::fread(written.data(), 1, written.size(), file));
-    std::fclose(file);
+    });
     EXPECT_EQ(
         written,
         "shutter: measuring vase: gather; 0 % done\nshutter: measuring vase: hybrid; 66 % done\n"
+    );
+}
+
+TEST(Progress, LinesWithTheTimeLeftComeEveryTenSecondsWhereTheyAreWantedAndThereIsNoTerminal) {
+    const std::string written = collectLines([](std::FILE* file) {
+        Progress progress("rendering", 4, file, fakeClock);
+        progress.printLines();
+        for (const double seconds : {9.0, 2.0, 8.0, 9.0}) {
+            passSeconds(seconds);
+            progress.advance();
+        }
+    });
+    EXPECT_EQ(
+        written,
+        "shutter: rendering: 50 % done, 11 s left\nshutter: rendering: 100 % done, 0 s left\n"
     );
 }
 
