@@ -218,7 +218,9 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
         .add_option(
             "--limit",
             arguments.limitSeconds,
-            "skip sample counts whose picture takes longer, seconds; default: 30 to 120, by suite"
+            "skip sample counts, except defaults, whose picture takes longer, seconds; default: 30 "
+            "to "
+            "120, by suite"
         )
         ->check(CLI::PositiveNumber);
     command

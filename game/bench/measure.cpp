@@ -132,7 +132,8 @@ class Rounds {
         if (!mStage.hasLens() && point.method->lensFilter != nullptr)
             return refuse(entry, "the camera has no lens");
         const double predicted = predict(entry);
-        if (predicted > mOptions.limitSeconds) {
+        // A method's default is what its row in the report is of.
+        if (predicted > mOptions.limitSeconds && !point.isDefault) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
             return refuse(entry, describeLimit(predicted));
         }
@@ -145,8 +146,9 @@ class Rounds {
             entry.seconds = known;
             return {};
         }
-        // A method's first picture compiles its shaders, which does not count as its time.
-        if (predicted == 0.0)
+        // Its first picture compiles pipelines, which does not count as its time: a single frame's
+        // for each sample count, but the same for any number of frames.
+        if (predicted == 0.0 || stepsOf(point) == 1)
             if (auto warm = mStage.draw(entry.drawn); !warm)
                 return warm.error();
         auto drawn = mStage.draw(entry.drawn);

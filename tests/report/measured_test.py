@@ -83,6 +83,15 @@ class Measured(unittest.TestCase):
         psnr = {m["method"]: m["metrics"]["psnr"] for m in case["measurements"] if m["isDefault"]}
         self.assertNotEqual(psnr["hybrid_paper"], psnr["hybrid"])
 
+    def test_a_limit_skips_other_sample_counts_than_defaults(self):
+        results = self.measure("--suite", "paper", "--methods", "gather,resolved", "--limit", "1e-6")
+        [case] = results["cases"]
+        self.assertEqual({m["method"] for m in case["measurements"] if m["isDefault"]},
+                         {"gather", "resolved"})
+        skipped = {(s["method"], s["samples"]) for s in case["skipped"]}
+        self.assertIn(("gather", 64), skipped)
+        self.assertIn("above the limit", case["skipped"][0]["reason"])
+
     def test_a_hard_case(self):
         results = self.measure("--suite", "hard", "--case", "spin", "--methods", "sharp,denoised")
         self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
