@@ -177,8 +177,7 @@ class Renderer {
         /// GBufferPass::Source::confusion.
         math::vec2 confusion{0.0f};
         core::Decision particles; ///< run: they are drawn with their motion over the exposure
-                                  ///< ......
-        size_t particlesAt = 0;   ///< ... after as many of `effects`
+        size_t particlesAt = 0;   ///< of the effects: particles are drawn after as many of them
     };
 
     /// The extracted frame, and the view that it was drawn for.

@@ -360,15 +360,15 @@ core::Status validateKey(const PathMotion& path, size_t i) {
     if (!isFinite(key.position))
         return core::makeError("path: the position of key {} is not finite", i);
     if (key.rotation && key.lookAt)
-        return core::makeError("path: key {} has a rotation and a place to view at", i);
+        return core::makeError("path: key {} has a rotation and a place to look at", i);
     if (key.rotation.has_value() != path.keys[0].rotation.has_value() ||
         key.lookAt.has_value() != path.keys[0].lookAt.has_value())
-        return core::makeError("path: key {} gives its direction in another way than key 0", i);
+        return core::makeError("path: key {} states its direction in another way than key 0", i);
     // Written so that NaN fails.
     if (key.rotation && !(std::abs(glm::length(*key.rotation) - 1.0) < 1.0e-3))
         return core::makeError("path: the rotation of key {} is not of length 1", i);
     if (key.lookAt && !isFinite(*key.lookAt))
-        return core::makeError("path: the place that key {} views at is not finite", i);
+        return core::makeError("path: the place that key {} looks at is not finite", i);
     return {};
 }
 

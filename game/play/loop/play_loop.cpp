@@ -42,14 +42,14 @@ math::uvec2 scaledSize(const math::uvec2& window, double scale) {
 std::vector<KeyHelp> listPhotoKeys() {
     return {
         {"W A S D Q E", "fly"},
-        {"right drag", "appearance"},
+        {"right drag", "turn the view"},
         {"wheel", "speed"},
         {"F", "focus on the middle"},
         {"F2", "save the picture"},
         {"T", "end"}};
 }
 
-/// What either the panel or the keyboard requests for; the keyboard's speed wins.
+/// What either the panel or the keyboard requests; the keyboard's speed wins.
 PanelRequests join(const PanelRequests& panel, const PanelRequests& keys) {
     PanelRequests both;
     both.save = panel.save || keys.save;

@@ -101,7 +101,7 @@ class SceneStage : public Stage {
         if (mViewer.mode() == ViewerMode::Orbit)
             return {
                 {"drag", "turn"}, {"right drag", "move"}, {"wheel", "nearer and farther"}, next};
-        return {{"W A S D Q E", "fly"}, {"right drag", "appearance"}, {"wheel", "speed"}, next};
+        return {{"W A S D Q E", "fly"}, {"right drag", "turn the view"}, {"wheel", "speed"}, next};
     }
 
   private:
