@@ -75,7 +75,7 @@ class Demo {
     [[nodiscard]] virtual bool isBodyExcluded() const = 0;
 };
 
-/// Descriptions of a demo's controls, in a few words.
+/// Descriptions of a demo's controls, in a few words; empty: it does not use that control.
 struct DemoControlWords {
     const char* turn;
     const char* drive;

@@ -150,7 +150,8 @@ void DebugView::declare(render::PostContext& context) {
     const bool hasAll = std::all_of(sources.begin(), sources.end(), [&](const std::string& name) {
         return made.contains(name);
     });
-    if (!view || !hasAll) {
+    mIsMissing = !view || !hasAll;
+    if (mIsMissing) {
         context.explainer.decide(
             render::ExplainedKind::Pass, "debug view", {false, "no effect made " + mView}
         );

@@ -44,6 +44,9 @@ class DebugView : public render::PostEffect {
     /// \param view one of listViews(), or empty: none
     void setView(std::string_view view) { mView = view; }
 
+    /// The frame declared last showed the picture, since no effect made what the view needs.
+    [[nodiscard]] bool isMissing() const { return mIsMissing; }
+
     [[nodiscard]] std::string name() const override { return "debug view"; }
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
@@ -55,6 +58,7 @@ class DebugView : public render::PostEffect {
     VkSampler mSampler;
     gpu::Pipeline mPipeline;
     std::string mView;
+    bool mIsMissing = false;
 };
 
 } // namespace shutter::debug_view

@@ -62,6 +62,14 @@ BudgetController::BudgetController(const BlurBudget& budget, const MotionBlurSet
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
 }
 
+void BudgetController::setBudget(const BlurBudget& budget) {
+    const core::Status valid = validate(budget);
+    SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
+    mBudget = budget;
+    if (budget.isUnlimited() && mLevel > 0)
+        moveTo(0);
+}
+
 double BudgetController::predict(size_t level) const {
     return mSmoothed * mLevels[level].cost / current().cost;
 }

@@ -53,6 +53,10 @@ class BudgetController {
 
     [[nodiscard]] const BlurBudget& budget() const { return mBudget; }
 
+    /// Another limit for the frames to come, which must be valid. The level stays, and follows the
+    /// new limit frame by frame; without a limit it is the first at once.
+    void setBudget(const BlurBudget& budget);
+
     /// Index of the level to draw the next frame with.
     [[nodiscard]] size_t level() const { return mLevel; }
 

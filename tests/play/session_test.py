@@ -33,6 +33,15 @@ class Session(PlayCase):
         # The picture moves.
         self.assertGreater(len(set(first)), 20)
 
+    def test_a_film_shows_the_head_up_display_only_if_that_is_typed(self):
+        def corner(*options):
+            script = Script().wait(2).add(window="quit")
+            self.play("rally", script, "--film", "a%02d.png", "--method", "sharp", *options, display=False)
+            return skimage.io.imread(sorted(self.folder.glob("a*.png"))[0])[4:20, 4:20].mean()
+
+        # Its background is dark.
+        self.assertGreater(corner(), corner("--film-hud") + 20)
+
     def test_split_shows_both_methods(self):
         script = Script().add(key="w", action="press").wait(150).tap("p")
         script.add(screenshot="sharp.png").wait().tap("m").wait()  # the next method blurs
@@ -220,7 +229,8 @@ class Session(PlayCase):
         for arguments, status, expected in (
             (["spin", "--frames", "1", "--assets", ASSETS, "--settings", "wrong.json"], 1,
              "wrong.json:2: instants"),
-            (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
+            (["nowhere.glb", "--frames", "1"], 1,
+             "'nowhere.glb' is neither a demo (rally, gallery, spin) nor a file"),
             (["rally"], 2, "--no-window"),
             (["rally", "--script", "none.json"], 1, "none.json"),
             (["rally", "--assets", "nowhere", "--frames", "1"], 1, "nowhere"),

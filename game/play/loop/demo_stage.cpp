@@ -75,13 +75,17 @@ class DemoStage : public Stage {
 
     [[nodiscard]] std::vector<KeyHelp> keys() const override {
         const DemoControlWords& words = findWords();
-        return {
+        std::vector<KeyHelp> keys{
             {"A D", words.turn},
             {"W S", words.drive},
             {"Space", words.action},
             {"C", "next camera"},
-            {"E", fmt::format("{} in or out of the blur", words.body)}};
+            {"E", *words.body ? fmt::format("{} in or out of the blur", words.body) : ""}};
+        std::erase_if(keys, [](const KeyHelp& key) { return key.what.empty(); }); // not used
+        return keys;
     }
+
+    [[nodiscard]] bool readsKeysInSteps() const override { return true; }
 
     [[nodiscard]] bool isOver() const override { return mDemo->isOver(); }
 

@@ -2,9 +2,11 @@
 #include "game/play/loop/hotkeys.h"
 
 #include "engine/core/check.h"
+#include "game/shot/picture_drawer.h"
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 namespace shutter::game {
 
@@ -115,6 +117,43 @@ PanelRequests applyHotkeys(
     if (input.wasPressed(Key::Slash))
         requests.speed = nextSpeed(speed, 1);
     return requests;
+}
+
+std::string
+explainIdleKeys(const app::InputState& input, const KeyFacts& facts, const PlaySettings& settings) {
+    const auto pressed = [&](std::initializer_list<Key> keys) {
+        return std::any_of(keys.begin(), keys.end(), [&](Key key) {
+            return input.wasPressed(key);
+        });
+    };
+    if (!facts.photoMethod.empty()) {
+        if (pressed({Key::M, Key::N, Key::X, Key::V, Key::C}))
+            return fmt::format("photo mode draws one picture by {}; T ends it", facts.photoMethod);
+    } else if (facts.stageRests && (pressed({Key::C, Key::E}) || input.wasPressed(PadButton::Y))) {
+        return "C and E act when the game goes on: P, or . for one frame";
+    } else if (pressed({Key::N}) && !settings.split) {
+        return fmt::format("left of a split: {}; X shows it", settings.leftMethod);
+    }
+    const auto method = findMethod(facts.photoMethod.empty() ? settings.method : facts.photoMethod);
+    if (pressed({Key::B}) && method && method.value()->family == MethodFamily::Sharp)
+        return "sharp blurs nothing, the camera's motion neither";
+    if (pressed({Key::Digit6}) && method && isSampledAnyway(*method.value()))
+        return fmt::format("{} has smooth edges without help", method.value()->name);
+    if (pressed({Key::Digit8}) && !facts.hasEnvironment)
+        return "the scene has no sky; --sky adds one";
+    if (pressed({Key::Digit0}) && !facts.hasParticles)
+        return "the scene has no particles";
+    if (pressed({Key::Comma}) && facts.speed <= kSpeeds.front())
+        return fmt::format("speed {:g} is the slowest", kSpeeds.front());
+    if (pressed({Key::Slash}) && facts.speed >= kSpeeds.back())
+        return fmt::format("speed {:g} is the fastest", kSpeeds.back());
+    return {};
+}
+
+double countHintDown(double seconds, double wallSeconds, bool hasPicture) {
+    constexpr double kMaxSecondsPerTurn = 0.25;
+    return hasPicture ? std::max(seconds - std::min(wallSeconds, kMaxSecondsPerTurn), 0.0)
+                      : seconds;
 }
 
 } // namespace shutter::game

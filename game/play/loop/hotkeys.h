@@ -31,4 +31,23 @@ cycle(std::span<const std::string> choices, const std::string& current, int step
     const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings
 );
 
+/// What decides whether a key changes anything.
+struct KeyFacts {
+    std::string photoMethod;     ///< that draws photo mode's picture; empty: photo mode is off
+    bool stageRests = false;     ///< the stage reads keys in steps of its time, which is paused
+    bool hasEnvironment = false; ///< a sky or picture around the scene
+    bool hasParticles = false;
+    double speed = 1.0; ///< of the game, before the keys
+};
+
+/// Why a pressed key changes nothing that is on the screen, in a sentence for the player; empty:
+/// each does. \param settings after applyHotkeys()
+[[nodiscard]] std::string
+explainIdleKeys(const app::InputState& input, const KeyFacts& facts, const PlaySettings& settings);
+
+/// Seconds for which the keys are shown yet, after a turn of `wallSeconds`. They count from the
+/// first picture, and a turn that takes long for a quarter of a second at most: nobody reads while
+/// the picture is frozen.
+[[nodiscard]] double countHintDown(double seconds, double wallSeconds, bool hasPicture);
+
 } // namespace shutter::game

@@ -38,6 +38,9 @@ class PictureFiles {
         mNext.push_back({file, std::move(texts), true});
     }
 
+    /// Forgets the files of the next picture.
+    void dropRequests() { mNext.clear(); }
+
     /// Whether the next picture must be read back.
     [[nodiscard]] bool wantsPicture() const { return mFilm || !mNext.empty(); }
 

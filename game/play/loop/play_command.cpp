@@ -14,6 +14,8 @@ int runPlay(const PlayArguments& arguments) {
     auto options = interpret(arguments);
     if (!options)
         return fail(kExitUsage, options.error());
+    if (core::Status known = checkStage(options.value()); !known)
+        return fail(kExitFailed, known.error());
     auto loop = PlayLoop::open(options.value());
     if (!loop)
         return fail(kExitFailed, loop.error());

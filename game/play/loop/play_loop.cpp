@@ -5,16 +5,19 @@
 #include "engine/core/words.h"
 #include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
+#include "engine/scene/particle_emitter.h"
 #include "engine/scene/ray_cast.h"
 #include "engine/scene/shutter.h"
-#include "game/play/loop/hotkeys.h"
 #include "game/play/loop/picture_files.h"
+#include "game/play/panel/panel_sections.h"
 #include "modules/debug_view/debug_view.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -110,18 +113,17 @@ core::Status PlayLoop::openScript() {
 
 core::Status PlayLoop::openScreen() {
     SHUTTER_TRY(mScreen.open(mOptions, mSettings.vsync));
-    if (!mOptions.preset && mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
+    if (mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
         mMessage = SettingsKeeper::slowDown(mOptions, mSettings);
     for (const MethodInfo& method : listMethods())
         if (canRun(method, mScreen.device()))
             mMethods.emplace_back(method.name);
-    for (const debug_view::ViewInfo& view : debug_view::listViews())
-        mViews.emplace_back(view.name);
     replaceMissingMethods();
     return {};
 }
 
 core::Status PlayLoop::openStage() {
+    SHUTTER_TRY(showNotice("loading"));
     if (mOptions.demo.empty()) {
         auto stage = loadSceneStage(mOptions.shot);
         if (!stage)
@@ -138,8 +140,9 @@ core::Status PlayLoop::openStage() {
     }
     if (mWatch)
         mStage = mWatch->wrap(std::move(mStage));
-    mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
     mScreen.setTitle("Shutter: " + mStage->title());
+    SHUTTER_TRY(showNotice("compiling shaders"));
+    mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
     warnOfPinhole();
     return {};
 }
@@ -284,6 +287,22 @@ void PlayLoop::dragDivider(const app::InputState& input) {
         mSettings.dividerShare = std::clamp(input.pointerPx.x / width, 0.0, 1.0);
 }
 
+core::Status PlayLoop::showNotice(const std::string& text) {
+    const math::uvec2 size = mScreen.size();
+    if (!mScreen.hasWindow() || size.x == 0 || size.y == 0)
+        return {};
+    mScreen.poll(false); // some window managers show nothing before
+    app::Ui& ui = mScreen.ui();
+    ui.begin({}, size, chooseUiScale({}), 0.0);
+    drawNotice(text);
+    ui.end();
+    return mScreen.showUi();
+}
+
+bool PlayLoop::isForPlayer() const {
+    return mScreen.hasWindow() && !mScript && !mFiles.isFilming() && !mWatch;
+}
+
 PanelFacts PlayLoop::describeSession() const {
     PanelFacts facts;
     facts.title = mStage->title();
@@ -303,28 +322,70 @@ PanelFacts PlayLoop::describeSession() const {
     if (mPhoto.isOn())
         facts.photoMethod = chooseSettings().method;
     facts.lens = scene::lensAt(mStage->world(), camera(), mExposure.raster);
+    if (isForPlayer() && !mPhoto.isOn())
+        facts.notice = mFirstUse.notice();
     facts.speed = mClock.speed();
     facts.recording = mRecorder.isRecording();
     facts.methods = mMethods;
-    facts.views = mViews;
+    facts.isViewMissing = mRenderer->isViewMissing();
     return facts;
 }
 
 PanelRequests PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
     app::Ui& ui = mScreen.ui();
     ui.begin(input, mScreen.size(), chooseUiScale(input), wallSeconds);
-    mHintSeconds = mSettings.showPanel ? 0.0 : std::max(mHintSeconds - wallSeconds, 0.0);
+    mHintSeconds = mSettings.showPanel
+                       ? 0.0
+                       : countHintDown(mHintSeconds, wallSeconds, mRecord.pictureCount() > 0);
     const std::vector<HudLine> hud = mStage->hud();
     const std::vector<KeyHelp> keys = mPhotoCamera.isOut() ? listPhotoKeys() : mStage->keys();
     PanelFacts facts = describeSession();
     facts.hud = hud;
     facts.keys = keys;
+    const std::vector<std::string> views = listViews();
+    facts.views = views;
     facts.showsHint = facts.showsHint || mPhotoCamera.isOut();
     const PanelRequests requests = mPanel.draw(facts, mSettings);
     ui.end();
     if (ui.wantsKeys())
         return requests;
-    return join(requests, applyHotkeys(input, {mMethods, mViews}, mClock.speed(), mSettings));
+    const PanelRequests all =
+        join(requests, applyHotkeys(input, {mMethods, views}, mClock.speed(), mSettings));
+    replaceMissingMethods(); // a preset's
+    if (std::string why = explainIdleKeys(input, describeKeys(), mSettings); !why.empty())
+        mMessage = std::move(why);
+    return all;
+}
+
+KeyFacts PlayLoop::describeKeys() const {
+    const scene::World& world = mStage->world();
+    KeyFacts facts;
+    if (mPhoto.isOn())
+        facts.photoMethod = chooseSettings().method;
+    facts.stageRests = mClock.isPaused() && mStage->readsKeysInSteps();
+    facts.hasEnvironment = world.assets.environment.has_value();
+    facts.hasParticles =
+        world.registry.view<scene::ParticleEmitter>().begin() != std::default_sentinel;
+    facts.speed = mClock.speed();
+    return facts;
+}
+
+std::vector<std::string> PlayLoop::listViews() const {
+    std::set<std::string> made{"particles"};
+    const auto add = [&](const std::string& name) {
+        if (const auto method = findMethod(name))
+            made.merge(listIntermediates(*method.value()));
+    };
+    add(mSettings.method);
+    if (mSettings.split)
+        add(mSettings.leftMethod);
+    std::vector<std::string> views;
+    for (const debug_view::ViewInfo& view : debug_view::listViews()) {
+        const std::set<std::string> sources = debug_view::listSources(view.name);
+        if (std::includes(made.begin(), made.end(), sources.begin(), sources.end()))
+            views.emplace_back(view.name);
+    }
+    return views;
 }
 
 void PlayLoop::apply(const PanelRequests& requests) {
@@ -353,8 +414,7 @@ void PlayLoop::apply(const PanelRequests& requests) {
     if (requests.save)
         mMessage = mKeeper.save(mSettings);
     if (requests.load) {
-        if (std::string message = mKeeper.load(mSettings); !message.empty())
-            mMessage = std::move(message);
+        mMessage = mKeeper.load(mSettings);
         replaceMissingMethods();
     }
     if (requests.toggleRecording)
@@ -414,12 +474,15 @@ std::string PlayLoop::explainPinhole() const {
         return "depth of field is off (panel, F1)";
     if (!scene::hasLens(world, camera()) && mSettings.lens.fStop == 0.0)
         return "the camera is a pinhole: choose an F-number (panel, F1)";
-    const auto method = findMethod(chooseSettings().method);
-    if (method && !method.value()->hasLens)
-        return fmt::format(
-            "{} draws pinholes: choose {}", method.value()->name, listLensMethods("or")
-        );
-    return {};
+    const std::string wanted = chooseSettings().method;
+    const std::string drawn =
+        findDrawnMethod(wanted, mRenderer ? mRenderer->statistics(PlaySide::Right) : nullptr);
+    const auto method = findMethod(drawn);
+    if (!method || method.value()->hasLens)
+        return {};
+    if (drawn != wanted)
+        return fmt::format("{} draws for {} and has no lens (panel, F1)", drawn, wanted);
+    return fmt::format("{} draws pinholes: choose {}", drawn, listLensMethods("or"));
 }
 
 void PlayLoop::warnOfPinhole() {
@@ -501,7 +564,9 @@ core::Status PlayLoop::drawPicture(double duration) {
     math::uvec2 size = mScreen.size();
     if (size.x == 0 || size.y == 0)
         return {};
-    const PlaySettings settings = chooseSettings();
+    PlaySettings settings = chooseSettings();
+    if (isForPlayer() && !mPhoto.isOn()) // whose rays are one picture's
+        settings = mFirstUse.choose(settings);
     mRenderer->makeRoom(settings);
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
@@ -517,7 +582,7 @@ core::Status PlayLoop::drawPicture(double duration) {
         size = {swapchain->desc().width, swapchain->desc().height};
     }
     chooseExposure(duration);
-    PlayPicture picture = makePicture(size);
+    PlayPicture picture = makePicture(size, settings);
     mRecorder.addFrame(mStage->world(), picture.view);
     if (swapchain)
         picture.window.acquire = [&] {
@@ -525,8 +590,13 @@ core::Status PlayLoop::drawPicture(double duration) {
                 shown = mScreen.acquire();
             return shown;
         };
-    if (picture.readBack && swapchain && !swapchain->canBeRead())
-        return core::makeError("this display's pictures cannot be read: no film, no screenshots");
+    if (picture.readBack && swapchain && !swapchain->canBeRead()) {
+        if (mFiles.isFilming())
+            return core::makeError("this display's pictures cannot be read: no film");
+        mFiles.dropRequests();
+        mMessage = "this display's pictures cannot be read: no screenshots";
+        picture.readBack = false;
+    }
     if (mPhoto.isTracing())
         picture.moreRays = {mPhoto.begin(mStage->world(), picture.view), mPhoto.raysToAdd()};
     SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, settings));
@@ -541,27 +611,26 @@ core::Status PlayLoop::drawPicture(double duration) {
     return {};
 }
 
-PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
-    const math::uvec2 drawn = scaledSize(sizePx, mSettings.resolutionScale);
+PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx, const PlaySettings& settings) {
+    const math::uvec2 drawn = scaledSize(sizePx, settings.resolutionScale);
     const DemoAppearance appearance = mStage->appearance();
     PlayPicture picture;
     picture.view.camera = camera();
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;
-    picture.view.frameFit = mSettings.picture.frameFit;
+    picture.view.frameFit = settings.picture.frameFit;
     picture.view.background = appearance.background;
     picture.view.ambient = appearance.ambient;
-    picture.view.environment = mSettings.environment;
-    picture.view.particles = mSettings.picture.particles;
-    picture.view.shadows = mSettings.picture.shadows;
+    picture.view.environment = settings.environment;
+    picture.view.particles = settings.picture.particles;
+    picture.view.shadows = settings.picture.shadows;
     picture.window.size = sizePx;
-    picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();
-    picture.wantReasons = mSettings.showPanel;
-    // The pictures of scripts, films and watched sessions must not depend on time.
-    const bool isForPlayer = mScreen.hasWindow() && !mScript && !mFiles.isFilming() && !mWatch;
+    const bool isBare = mFiles.wantsPhoto() || (mFiles.isFilming() && !mOptions.filmsHud);
+    picture.window.overlay = isBare ? nullptr : &mScreen.ui();
+    picture.wantReasons = settings.showPanel;
     picture.untilReady =
-        isForPlayer ? motion_blur::UntilReady::StandIn : motion_blur::UntilReady::Wait;
+        isForPlayer() ? motion_blur::UntilReady::StandIn : motion_blur::UntilReady::Wait;
     picture.readBack = mFiles.wantsPicture();
     return picture;
 }

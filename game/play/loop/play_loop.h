@@ -4,7 +4,9 @@
 
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
+#include "game/play/loop/first_use.h"
 #include "game/play/loop/flythrough_recorder.h"
+#include "game/play/loop/hotkeys.h"
 #include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"
@@ -51,12 +53,20 @@ class PlayLoop {
     /// The player's input without what the user interface and the divider take.
     app::InputState filterInput(const app::InputState& input);
     void dragDivider(const app::InputState& input);
+    /// Shows a line of text in place of a picture.
+    core::Status showNotice(const std::string& text);
+    /// Whether a person plays: pictures of scripts, films and watched sessions must not depend on
+    /// time.
+    [[nodiscard]] bool isForPlayer() const;
     PanelRequests drawPanel(const app::InputState& input, double wallSeconds);
-    /// Without the stage's part: lines and keys.
+    [[nodiscard]] KeyFacts describeKeys() const;
+    /// Intermediates that the methods on the screen make.
+    [[nodiscard]] std::vector<std::string> listViews() const;
+    /// Without the stage's part: lines, keys and views.
     [[nodiscard]] PanelFacts describeSession() const;
     void apply(const PanelRequests& requests);
     core::Status drawPicture(double duration);
-    [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
+    [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx, const PlaySettings& settings);
     /// Records that a picture was submitted.
     void notePicture();
     void toggleRecording();
@@ -99,12 +109,12 @@ class PlayLoop {
     Panel mPanel;
     app::StepClock mClock{kDemoStepSeconds};
     std::vector<std::string> mMethods; ///< that the device can run
-    std::vector<std::string> mViews;
     std::string mMessage;
     app::FrameTime mTime;
     scene::ExposureInterval mExposure;
     std::optional<Clock::time_point> mLastTurn;
     PlayRecord mRecord;
+    FirstUse mFirstUse;
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
     PhotoCamera mPhotoCamera;

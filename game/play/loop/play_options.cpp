@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <system_error>
 #include <utility>
 
 namespace shutter::game {
@@ -79,7 +80,14 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option("--ui-scale", a.uiScale, "size of text and panel, 0.5 to 4; default: 1");
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
     command.add_option("--script", a.script, "play unattended from a JSON file of input");
-    command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
+    command.add_option(
+        "--film",
+        a.film,
+        "write every picture without the head-up display: .png or .jpg with %04d, or .mp4"
+    );
+    command.add_flag(
+        "--film-hud", a.filmsHud, "the film shows the head-up display and the panel, too"
+    );
     command.add_option("--ffmpeg", a.ffmpeg, "program that encodes .mp4; default: the one on PATH");
     command.add_option("--frames", a.frames, "end after this many frames")
         ->check(CLI::Range(1u, kMaxFrames));
@@ -91,6 +99,15 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
         "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
     );
     defineDeviceOptions(command, a.device);
+}
+
+core::Status checkStage(const PlayOptions& options) {
+    std::error_code ignored;
+    if (!options.demo.empty() || std::filesystem::exists(options.shot.scene, ignored))
+        return {};
+    return makeError(
+        "'{}' is neither a demo ({}) nor a file", options.shot.scene.string(), listDemoNames()
+    );
 }
 
 core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
@@ -114,6 +131,9 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     options.fps = shot.fps.value_or(kDefaultFps);
     options.device = arguments.device;
     options.ffmpeg = arguments.ffmpeg;
+    if (arguments.filmsHud && arguments.film.empty())
+        return makeError("--film-hud changes nothing without --film");
+    options.filmsHud = arguments.filmsHud;
     if (!arguments.method.empty()) {
         if (const auto method = findMethod(arguments.method); !method)
             return method.error();

@@ -31,6 +31,7 @@ struct PlayArguments {
     std::string stats;
     std::optional<bool> vsync;
     std::optional<double> uiScale;
+    bool filmsHud = false;
     bool noWindow = false;
     uint32_t frames = 0;
 };
@@ -45,6 +46,7 @@ struct PlayOptions {
     const Preset* preset = nullptr;    ///< wins over the settings' own method and effects
     std::filesystem::path script;      ///< empty: a person plays
     std::filesystem::path film;        ///< %04d.png or .mp4; empty: none
+    bool filmsHud = false;             ///< its pictures show the head-up display and the panel
     core::FrameRate fps = 30.0;        ///< of frames that do not run in real time
     std::filesystem::path settings;    ///< empty: the player's own
     std::filesystem::path assets;      ///< folder of the demos' scenes
@@ -63,6 +65,9 @@ struct PlayOptions {
 void addPlayCommand(CLI::App& app, int& exitStatus);
 
 void definePlayOptions(CLI::App& command, PlayArguments& arguments);
+
+/// Error: the options name neither a demo nor a file. For before a window is opened.
+[[nodiscard]] core::Status checkStage(const PlayOptions& options);
 
 /// Error: names the option that was used wrongly.
 [[nodiscard]] core::Result<PlayOptions> interpret(const PlayArguments& arguments);

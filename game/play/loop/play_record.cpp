@@ -43,8 +43,13 @@ void PlayRecord::addStatistics(const render::FrameStatistics& statistics) {
     const auto found = statistics.measures.find("blur ms");
     mBlurMilliseconds.push_back(found == statistics.measures.end() ? 0.0 : found->second);
     mPasses.clear();
-    for (const render::PassTime& pass : statistics.passes)
+    std::map<std::string, double> times;
+    for (const render::PassTime& pass : statistics.passes) {
         ++mPasses[pass.name];
+        times[pass.name] += pass.gpuMilliseconds;
+    }
+    for (const auto& [name, milliseconds] : times)
+        mPassMilliseconds[name].push_back(milliseconds);
     mReducedFrames += isReduced(statistics);
     mStandInFrames += isDrawnByStandIn(statistics);
 }
@@ -65,6 +70,10 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     addQuartiles(record, "frameMilliseconds", mMilliseconds);
     addQuartiles(record, "blurMilliseconds", mBlurMilliseconds);
     record["passes"] = mPasses;
+    nlohmann::ordered_json& passTimes = record["passMilliseconds"] =
+        nlohmann::ordered_json::object();
+    for (const auto& [name, milliseconds] : mPassMilliseconds)
+        passTimes[name] = math::computeQuartiles(milliseconds).median;
     record["reducedFrames"] = mReducedFrames;
     record["standInFrames"] = mStandInFrames;
     if (facts.score) {

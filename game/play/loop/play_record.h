@@ -60,7 +60,9 @@ class PlayRecord {
     std::vector<double> mMilliseconds;       ///< of all frames, wall
     std::vector<double> mBlurMilliseconds;   ///< of finished frames, GPU
     std::map<std::string, uint32_t> mPasses; ///< of the last finished frame: how often each ran
-    std::deque<double> mRecent;              ///< milliseconds of the last second
+    /// GPU, by pass, of those frames that had it.
+    std::map<std::string, std::vector<double>> mPassMilliseconds;
+    std::deque<double> mRecent; ///< milliseconds of the last second
     double mRecentSum = 0.0;
     double mStartSeconds = 0.0;
     std::optional<uint64_t> mFirstAllocations; ///< once the first second is over

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/play_renderer.h"
 
+#include "engine/math/statistics.h"
 #include "engine/scene/lens.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace shutter::game {
@@ -18,8 +21,25 @@ PlayRenderer::PlayRenderer(gpu::Device& device, const scene::Assets& assets)
     : mRenderer(device, assets, kFramesInFlight), mEffects(device), mLeftView(device),
       mRightView(device), mKept(device), mWindow(device), mDrawer(device, mRenderer) {}
 
+void PlayRenderer::OtherTimes::add(const render::FrameStatistics& statistics) {
+    double sum = 0.0;
+    for (const render::PassTime& pass : statistics.passes)
+        sum += pass.gpuMilliseconds;
+    const auto blur = statistics.measures.find("blur ms");
+    if (blur != statistics.measures.end())
+        sum -= blur->second;
+    if (std::isfinite(sum))
+        milliseconds[count++ % milliseconds.size()] = std::max(sum, 0.0);
+}
+
+double PlayRenderer::OtherTimes::find() const {
+    const std::span known(milliseconds.data(), std::min(count, milliseconds.size()));
+    return known.empty() ? 0.0 : math::computeQuartiles({known.begin(), known.end()}).median;
+}
+
 void PlayRenderer::takeFinished() {
     while (std::optional<FinishedPicture> finished = mDrawer.takeFinished()) {
+        mOtherTimes[finished->slot].add(finished->result.statistics);
         mShown[finished->slot] = std::move(finished->result.statistics);
         if (finished->result.display.width > 0)
             mPictures.push_back(std::move(finished->result.display));
@@ -69,7 +89,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     request.slot = static_cast<uint32_t>(side);
     request.untilReady = untilReady;
     request.method.method = method.value();
-    request.method.budget = settings.budget;
+    request.method.budget = computeBudget(settings, mOtherTimes[static_cast<size_t>(side)].find());
     request.antiAliasing = settings.picture.antiAliasing;
     if (method.value()->family == MethodFamily::MotionBlur)
         request.method.motionBlur = makeBlurSettings(settings, *method.value());

@@ -11,6 +11,8 @@
 #include "game/shot/picture_effects.h"
 #include "modules/debug_view/debug_view.h"
 
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <string>
@@ -60,6 +62,9 @@ class PlayRenderer {
     /// the first.
     [[nodiscard]] const render::FrameStatistics* statistics(PlaySide side) const;
 
+    /// The last picture shows no view although one was requested: no effect made it.
+    [[nodiscard]] bool isViewMissing() const { return mRightView.isMissing(); }
+
     /// The window's picture that was read back and finished first, in display encoding.
     [[nodiscard]] std::optional<image::Image> takePicture();
 
@@ -80,7 +85,19 @@ class PlayRenderer {
     debug_view::DebugView mRightView;
     app::KeptPicture mKept;
     app::WindowOutput mWindow;
+
+    /// GPU milliseconds of the last finished pictures besides their blur, of one side.
+    struct OtherTimes {
+        std::array<double, 5> milliseconds{};
+        size_t count = 0;
+
+        void add(const render::FrameStatistics& statistics);
+        /// The median, which one frame that compiles shaders does not change; 0: there is none.
+        [[nodiscard]] double find() const;
+    };
+
     std::optional<render::FrameStatistics> mShown[2]; ///< per PlaySide
+    OtherTimes mOtherTimes[2];                        ///< per PlaySide
     std::deque<image::Image> mPictures;
     PictureDrawer mDrawer; ///< the last: its unfinished frames use the effects above
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/play_screen.h"
 
+#include "engine/graph/execute.h"
 #include "game/options/program.h"
 
 #include <utility>
@@ -111,6 +112,44 @@ void PlayScreen::toggleFullScreen() {
 void PlayScreen::keepPipelines() {
     mKeeping =
         std::async(std::launch::async, [device = mDevice.get()] { device->savePipelineCache(); });
+}
+
+core::Status PlayScreen::showUi() {
+    if (!mSwapchain || !mSwapchain->hasImages())
+        return {};
+    const auto shown = mSwapchain->acquire();
+    if (!shown)
+        return {};
+
+    struct Data {
+        graph::ImageHandle window;
+    };
+
+    const gpu::SwapchainDesc& size = mSwapchain->desc();
+    gpu::Frame frame(*mDevice);
+    graph::TransientPool pool(*mDevice);
+    frame.begin();
+    graph::Graph graph;
+    const auto window = graph.importImage(
+        "window", *shown->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR
+    );
+    const app::OverlayTarget target{mSwapchain->format(), size.width, size.height, 0};
+    graph.addPass<Data>(
+        "user interface",
+        graph::PassKind::Raster,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.window = builder.colorTarget(window, graph::ClearColor::floats(0, 0, 0, 1));
+            graph.markOutput(data.window);
+            builder.startBatch();
+        },
+        [&](const Data&, graph::PassContext& recording) { mUi->record(recording.frame, target); }
+    );
+    if (const auto plan = graph::execute(graph, frame, pool); !plan)
+        return plan.error();
+    frame.submit(shown->semaphores);
+    mSwapchain->present(*shown);
+    frame.wait(); // the user interface records into the slot's buffers again
+    return {};
 }
 
 void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& renderer) {

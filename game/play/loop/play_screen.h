@@ -64,6 +64,10 @@ class PlayScreen {
     /// Shows an acquired image that was drawn on.
     void present(const gpu::SwapchainImage& image) { mSwapchain->present(image); }
 
+    /// Shows what ui() declared last, alone on black, and waits for it: before there is a picture.
+    /// Shows nothing without a window, or if that does not fit its images now.
+    [[nodiscard]] core::Status showUi();
+
     /// Writes the pipelines that are made by now to disk, on another thread. Once.
     void keepPipelines();
 

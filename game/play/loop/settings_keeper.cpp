@@ -13,6 +13,11 @@ namespace {
 
 /// For a player without settings: a third of a frame at 20 frames per second.
 constexpr double kFirstBudgetMilliseconds = 16.0;
+/// The same without a GPU, where the whole frame takes hundreds of milliseconds: of the frame.
+constexpr double kFirstBudgetShare = 0.25;
+
+constexpr const char* kNoFile =
+    "settings are kept nowhere: there is no home folder, or a script plays";
 
 void applyOptions(const PlayOptions& options, PlaySettings& settings) {
     if (options.preset)
@@ -71,6 +76,10 @@ SettingsKeeper::open(const PlayOptions& options, bool isScripted, std::string& m
 }
 
 std::string SettingsKeeper::slowDown(const PlayOptions& options, PlaySettings& settings) {
+    settings.budget = {};
+    settings.budgetShare = kFirstBudgetShare;
+    if (options.preset)
+        return {};
     const Preset& preset = *findPreset("performance").value();
     applyPreset(preset, settings);
     applyOptions(options, settings);
@@ -79,7 +88,7 @@ std::string SettingsKeeper::slowDown(const PlayOptions& options, PlaySettings& s
 
 std::string SettingsKeeper::save(const PlaySettings& settings) const {
     if (mFile.empty())
-        return "settings are kept nowhere: there is no home folder, or a script plays";
+        return kNoFile;
     std::error_code ignored;
     if (mIsOwn)
         std::filesystem::create_directories(mFile.parent_path(), ignored);
@@ -91,7 +100,10 @@ std::string SettingsKeeper::save(const PlaySettings& settings) const {
 
 std::string SettingsKeeper::load(PlaySettings& settings) {
     if (mFile.empty())
-        return {};
+        return kNoFile;
+    std::error_code ignored;
+    if (!std::filesystem::exists(mFile, ignored))
+        return fmt::format("{} is not there yet: F5 saves the settings", mFile.string());
     auto loaded = loadPlaySettings(mFile);
     if (!loaded)
         return refuse(loaded.error().message);

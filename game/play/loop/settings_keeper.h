@@ -24,15 +24,16 @@ class SettingsKeeper {
     [[nodiscard]] std::string save(const PlaySettings& settings) const;
 
     /// Reads the settings again; `settings` stay as they are if the file is refused.
-    /// \return one line for the player; empty if there is no file to read
+    /// \return one line for the player
     [[nodiscard]] std::string load(PlaySettings& settings);
 
     /// The player has kept no settings yet.
     [[nodiscard]] bool isFirstSession() const { return mIsFirstSession; }
 
-    /// What a new player begins with on a software device, whose pictures take the processor: the
-    /// preset `performance`, and over it what `options` names.
-    /// \return one line for the player
+    /// What a new player begins with on a software device, whose pictures take the processor: a
+    /// budget that is a share of the frame, and, unless `options` name a preset, `performance`,
+    /// and over it what `options` name.
+    /// \return one line for the player; empty if `options` name a preset
     static std::string slowDown(const PlayOptions& options, PlaySettings& settings);
 
   private:

@@ -43,6 +43,9 @@ class Stage {
     /// Whether the camera is in the player's hand, while the game is paused, too.
     [[nodiscard]] virtual bool holdsCamera() const { return false; }
 
+    /// Whether keys act in steps of its time, and so not while the game is paused.
+    [[nodiscard]] virtual bool readsKeysInSteps() const { return false; }
+
     /// Where its time starts, seconds.
     [[nodiscard]] virtual double startSeconds() const { return 0.0; }
 

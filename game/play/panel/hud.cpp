@@ -2,6 +2,9 @@
 #include "engine/core/words.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/shot/methods.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -154,33 +157,13 @@ float drawReadings(Grounds& grounds, std::span<const HudLine> readings, const Im
                                    : end;
 }
 
-std::string describeState(const PanelFacts& facts) {
-    std::string state;
-    if (facts.photo)
-        state = facts.photoRays
-                    ? fmt::format(
-                          "photo mode: truth, {} per pixel", core::countOf(*facts.photoRays, "ray")
-                      )
-                    : fmt::format("photo mode: {}", facts.photoMethod);
-    else if (facts.paused)
-        state = "paused";
-    else if (facts.speed != 1.0)
-        state = fmt::format("speed {:g}", facts.speed);
-    if (facts.recording)
-        state += fmt::format("{}recording", state.empty() ? "" : ", ");
-    return state;
-}
-
-/// That draws the picture, right of a split.
-const std::string& findRightMethod(const PanelFacts& facts, const PlaySettings& settings) {
-    return facts.photoMethod.empty() ? settings.method : facts.photoMethod;
-}
-
-void drawGame(Grounds& grounds, const PanelFacts& facts) {
+void drawGame(Grounds& grounds, const PanelFacts& facts, const PlaySettings& settings) {
     float y = margin();
     const auto isReading = [](const HudLine& line) { return !line.label.empty(); };
-    for (auto line = facts.hud.begin(); line != facts.hud.end();) {
-        const auto end = std::find_if_not(line, facts.hud.end(), isReading);
+    // The game rests in photo mode, and its picture is what matters.
+    const auto hud = facts.photo ? std::span<const HudLine>() : facts.hud;
+    for (auto line = hud.begin(); line != hud.end();) {
+        const auto end = std::find_if_not(line, hud.end(), isReading);
         if (line != end) {
             y = drawReadings(grounds, {line, end}, {margin(), y});
             line = end;
@@ -191,8 +174,13 @@ void drawGame(Grounds& grounds, const PanelFacts& facts) {
         y = column.y();
         ++line;
     }
-    if (const std::string state = describeState(facts); !state.empty())
+    if (const std::string state = describeState(facts, settings.view); !state.empty())
         TextColumn(grounds, {margin(), y}, 0.0f).add(state, kEmphasis);
+    if (!facts.notice.empty()) {
+        const ImVec2 window = ImGui::GetIO().DisplaySize;
+        TextColumn(grounds, {0.5f * window.x, 0.4f * window.y}, 0.5f)
+            .add(facts.notice, kEmphasis, true);
+    }
 }
 
 /// \return where it ends, y
@@ -201,12 +189,14 @@ float drawRates(Grounds& grounds, const PanelFacts& facts, const PlaySettings& s
     const double milliseconds = facts.frameMilliseconds;
     if (milliseconds > 0.0 && std::isfinite(milliseconds))
         column.add(fmt::format("{:.1f} fps   {:.1f} ms", 1000.0 / milliseconds, milliseconds));
+    if (facts.photo)
+        return column.y(); // the time of a frame is not that of the picture
     if (facts.left && settings.split)
         column.add("left: " + describeBlurCost(settings.leftMethod, *facts.left, milliseconds));
     if (facts.right)
         column.add(
             (facts.left && settings.split ? "right: " : "") +
-            describeBlurCost(findRightMethod(facts, settings), *facts.right, milliseconds)
+            describeBlurCost(settings.method, *facts.right, milliseconds)
         );
     return column.y();
 }
@@ -217,11 +207,15 @@ float drawSides(Grounds& grounds, const PanelFacts& facts, const PlaySettings& s
     const float width = ImGui::GetIO().DisplaySize.x;
     const float divider = std::floor(width * static_cast<float>(settings.dividerShare));
     const auto describe = [&](const std::string& method, const auto* statistics) {
-        return describeMethod(method, statistics, settings.budget);
+        return describeMethod(
+            method, statistics, settings.budgetShare < 1.0 || !settings.budget.isUnlimited()
+        );
     };
-    if (facts.photo || !settings.split) {
+    if (facts.photo)
+        return y; // describeState() names it
+    if (!settings.split) {
         TextColumn side(grounds, {margin(), y}, 0.0f, Way::Up);
-        side.add(describe(findRightMethod(facts, settings), facts.right));
+        side.add(describe(settings.method, facts.right));
         return side.y();
     }
     TextColumn left(grounds, {divider - gap, y}, 1.0f, Way::Up);
@@ -261,15 +255,18 @@ float drawAbove(Grounds& grounds, float y, const std::string& text, ImU32 color)
 
 /// The most important keys, unless they take more than a third of the window.
 /// \return y of their upper end
-float drawHint(Grounds& grounds, std::span<const KeyHelp> own, float y) {
-    const std::string common = describeKeys(listCommonKeys());
-    const std::string more = describeKeys(own);
+float drawHint(Grounds& grounds, const PanelFacts& facts, float y) {
+    // Photo mode has separate keys.
+    const std::string common = facts.photo ? "" : describeKeys(listCommonKeys());
+    const std::string more = describeKeys(facts.keys);
     const ImFont& font = *ImGui::GetFont();
     if (3.0f * (measure(font, common, widest()).y + measure(font, more, widest()).y) >
         ImGui::GetIO().DisplaySize.y)
         return y;
-    y = drawAbove(grounds, y, common, kText);
-    return own.empty() ? y : drawAbove(grounds, y, more, kText);
+    for (const std::string& line : {common, more})
+        if (!line.empty())
+            y = drawAbove(grounds, y, line, kText);
+    return y;
 }
 
 } // namespace
@@ -280,7 +277,7 @@ std::string describeBlurCost(
     const auto info = findMethod(method);
     const double blur = info ? sumBlurMilliseconds(*info.value(), statistics) : 0.0;
     std::string text = fmt::format("motion blur {:.1f} ms", blur);
-    if (frameMilliseconds > 0.0 && std::isfinite(frameMilliseconds))
+    if (blur <= frameMilliseconds && frameMilliseconds > 0.0 && std::isfinite(frameMilliseconds))
         text += fmt::format(" ({:.0f} % of the frame)", 100.0 * blur / frameMilliseconds);
     return text;
 }
@@ -294,22 +291,50 @@ bool isDrawnByStandIn(const render::FrameStatistics& statistics) {
     return statistics.measures.contains("blur stands in");
 }
 
-std::string describeMethod(
-    const std::string& method,
-    const render::FrameStatistics* statistics,
-    const motion_blur::BlurBudget& budget
-) {
-    if (statistics && isDrawnByStandIn(*statistics)) {
-        // The player may have chosen another method since, which has no stand-in.
-        const auto info = findMethod(method);
-        if (info && info.value()->blur && info.value()->blur->standIn)
-            return fmt::format(
-                "{}: {} until its pipelines are made", method, info.value()->blur->standIn
-            );
-    }
-    if (!statistics || budget.isUnlimited() || !isReduced(*statistics))
+std::string findDrawnMethod(const std::string& method, const render::FrameStatistics* statistics) {
+    const auto info = findMethod(method);
+    if (!statistics || !info || !info.value()->blur)
         return method;
-    return fmt::format("{}, reduced: {:g} ms budget", method, budget.milliseconds);
+    const auto* drawn = render::findDecision(
+        statistics->explanations, motion_blur::nameReplacement(*info.value()->blur)
+    );
+    return drawn ? drawn->reason : method;
+}
+
+std::string describeMethod(
+    const std::string& method, const render::FrameStatistics* statistics, bool isLimited
+) {
+    const std::string drawn = findDrawnMethod(method, statistics);
+    if (statistics && isDrawnByStandIn(*statistics))
+        return drawn == method ? method
+                               : fmt::format("{}: {} until its pipelines are made", method, drawn);
+    if (!statistics || !isLimited || !isReduced(*statistics))
+        return method;
+    return drawn == method ? fmt::format("{}, reduced: budget, F1", method)
+                           : fmt::format("{} for {}: budget, F1", drawn, method);
+}
+
+std::string describeState(const PanelFacts& facts, const std::string& view) {
+    std::vector<std::string> parts;
+    if (facts.photoRays)
+        parts.push_back(fmt::format(
+            "photo mode: {}, {} per pixel",
+            facts.photoMethod,
+            core::countOf(*facts.photoRays, "ray")
+        ));
+    else if (facts.photo)
+        parts.push_back(fmt::format("photo mode: {}", facts.photoMethod));
+    else if (facts.paused)
+        parts.emplace_back("paused");
+    else if (facts.speed != 1.0)
+        parts.push_back(fmt::format("speed {:g}", facts.speed));
+    if (facts.recording)
+        parts.emplace_back("recording");
+    if (!view.empty() && !facts.photo)
+        parts.push_back(fmt::format(
+            "view: {}{}", view, facts.isViewMissing ? ", which this frame does not have" : ""
+        ));
+    return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string describeEffects(const PlaySettings& settings) {
@@ -334,17 +359,30 @@ std::string describeEffects(const PlaySettings& settings) {
     return text;
 }
 
+void drawNotice(const std::string& text) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImFont& font = largeFont();
+    const ImVec2 size = measure(font, text);
+    ImGui::GetBackgroundDrawList()->AddText(
+        &font,
+        font.FontSize,
+        {std::floor(0.5f * (window.x - size.x)), std::floor(0.5f * (window.y - size.y))},
+        kText,
+        text.c_str()
+    );
+}
+
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     Grounds grounds;
     HudSpace space;
-    drawGame(grounds, facts);
+    drawGame(grounds, facts, settings);
     float y = window.y - margin();
     if (facts.showsHint)
-        y = drawHint(grounds, facts.keys, y);
+        y = drawHint(grounds, facts, y);
     if (!facts.message.empty())
         y = drawAbove(grounds, y, facts.message, kEmphasis);
-    if (const std::string effects = describeEffects(settings); !effects.empty())
+    if (const std::string effects = describeEffects(settings); !effects.empty() && !facts.photo)
         y = drawAbove(grounds, y, effects, kLabel) + margin() - 2.0f * padding();
     y = drawSides(grounds, facts, settings, y - 2.0f * padding());
     space.bottom = window.y - (y + 2.0f * padding()) + margin();

@@ -90,7 +90,8 @@ void drawPlayRows(const char* id, PlaySettings& settings, std::span<const std::s
 /// The budget, and the quality that it dropped.
 void drawBudget(const PanelFacts& facts, PlaySettings& settings) {
     drawRows("budget", motion_blur::listBudgetRows(), settings.budget);
-    if (!facts.right || settings.budget.isUnlimited() || !isReduced(*facts.right))
+    drawPlayRows("budget share", settings, std::vector<std::string_view>{"budgetShare"});
+    if (!facts.right || !isReduced(*facts.right))
         return;
     if (const auto* reason = render::findDecision(facts.right->explanations, "blur budget")) {
         ImGui::PushTextWrapPos(0.0f);

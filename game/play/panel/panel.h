@@ -28,6 +28,7 @@ struct PanelFacts {
     std::span<const KeyHelp> keys; ///< of the demo or scene, besides those of every session
     bool showsHint = false;        ///< the most important keys are shown below the picture
     std::string message;           ///< one line, e.g. what could not be done; empty: none
+    std::string notice;            ///< what the player waits for; empty: nothing
     /// The last finished frame's; null: none yet. Passes and work have reasons if the frame was
     /// drawn with FrameRequest::wantReasons.
     const render::FrameStatistics* right = nullptr;
@@ -40,6 +41,7 @@ struct PanelFacts {
     std::optional<uint32_t> photoRays; ///< per pixel of its picture; nothing: none are traced
     std::string photoMethod;           ///< that draws it; empty: the settings' own
     scene::CameraLens lens;            ///< of the last picture's camera; fStop 0: a pinhole
+    bool isViewMissing = false;        ///< the last picture shows no `view` although one is set
     double speed = 1.0;
     bool recording = false;               ///< a flythrough is being recorded
     std::span<const std::string> methods; ///< that the device can run

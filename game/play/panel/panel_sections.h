@@ -32,6 +32,10 @@ void drawReasonSection(const PanelFacts& facts);
 /// All keys, those of the demo or scene first.
 void drawKeySection(const PanelFacts& facts);
 
+/// "photo mode: truth, 12 rays per pixel", "paused, view: depth", "speed 0.5"; empty: the game
+/// runs.
+[[nodiscard]] std::string describeState(const PanelFacts& facts, const std::string& view);
+
 /// The keys that a new player needs, besides those of the demo or scene.
 [[nodiscard]] std::span<const KeyHelp> listCommonKeys();
 
@@ -54,25 +58,34 @@ struct HudSpace {
 /// lines, they wrap and give way to one another, and those that find no room are left out.
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
 
+/// A line of text in the middle of the window, where there is no picture yet.
+void drawNotice(const std::string& text);
+
 /// Whether the budget made the blur of that frame give something up.
 [[nodiscard]] bool isReduced(const render::FrameStatistics& statistics);
 
 /// Whether another method drew that frame, as the pipelines of its own were still being made.
 [[nodiscard]] bool isDrawnByStandIn(const render::FrameStatistics& statistics);
 
-/// "resolved", and "resolved, reduced: 16 ms budget" if the budget dropped quality; "hybrid: gather
-/// until its pipelines are made" where that method stood in for it.
+/// The method that drew a frame for `method`: that, a stand-in, or the one that a budget fell back
+/// to. \param statistics of the method's last frame; null: none is finished yet
+[[nodiscard]] std::string
+findDrawnMethod(const std::string& method, const render::FrameStatistics* statistics);
+
+/// "resolved"; "resolved, reduced: budget, F1" if a budget dropped quality, "own_velocity for
+/// resolved: budget, F1" if it fell back to another method; "hybrid: gather until its pipelines are
+/// made" where that method stood in for it.
 /// \param statistics of the method's last frame; null: none is finished yet
+/// \param isLimited there is a budget
 [[nodiscard]] std::string describeMethod(
-    const std::string& method,
-    const render::FrameStatistics* statistics,
-    const motion_blur::BlurBudget& budget
+    const std::string& method, const render::FrameStatistics* statistics, bool isLimited
 );
 
 /// The enabled effects other than the blur, "taa, blurred shadows, sky, bloom, particles".
 [[nodiscard]] std::string describeEffects(const PlaySettings& settings);
 
-/// "motion blur 12.3 ms (19 % of the frame)".
+/// "motion blur 12.3 ms (19 % of the frame)"; without the share where frames overlap, so that the
+/// blur's time exceeds that from one picture to the next.
 [[nodiscard]] std::string describeBlurCost(
     const std::string& method, const render::FrameStatistics& statistics, double frameMilliseconds
 );

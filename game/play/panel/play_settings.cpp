@@ -79,6 +79,17 @@ bool isApplied(const Preset& preset, const PlaySettings& settings) {
             core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
 }
 
+motion_blur::BlurBudget computeBudget(const PlaySettings& settings, double otherMilliseconds) {
+    motion_blur::BlurBudget budget = settings.budget;
+    // What the blur gives up makes the frame shorter, too: hence of the rest, not of the frame.
+    if (settings.budgetShare < 1.0 && otherMilliseconds > 0.0)
+        budget.milliseconds = std::min(
+            budget.milliseconds,
+            otherMilliseconds * settings.budgetShare / (1.0 - settings.budgetShare)
+        );
+    return budget;
+}
+
 PictureSettings makePlayPicture() {
     PictureSettings picture;
     picture.antiAliasing = AntiAliasing::Taa;
@@ -132,6 +143,13 @@ core::SettingRows<PlaySettings> listPlayRows() {
          "Scales the blur that the camera's own motion causes, for players whom it makes sick. At "
          "0 only movers blur.",
          "Camera blur"},
+        {"budgetShare",
+         &S::budgetShare,
+         "",
+         {.lowest = 0.05, .highest = 1},
+         "Share of a frame's GPU time that the blur may take. To stay within it, the blur gives up "
+         "what the budget in milliseconds takes away, too. 1 is no limit.",
+         "Budget, share"},
         {"depthOfField",
          &S::depthOfField,
          "",

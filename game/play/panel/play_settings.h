@@ -34,6 +34,8 @@ struct PlaySettings {
     motion_blur::MotionBlurSettings
         blur{}; ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
+    /// Of a frame's GPU time, that the blur may take besides `budget`, [0.05, 1]; 1: no limit.
+    double budgetShare = 1.0;
     scene::CameraShutter shutter = makePlayShutter();
     bool depthOfField = true; ///< false: cameras are pinholes, whatever `lens` is
     /// In place of the camera's own lens, for methods that have one.
@@ -63,6 +65,11 @@ makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
 void applyPreset(const Preset& preset, PlaySettings& settings);
 /// The settings are as the preset makes them.
 [[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);
+
+/// The budget of the blur where everything else of a frame takes `otherMilliseconds` of the GPU,
+/// which is 0 if that is unknown: then budgetShare is no limit.
+[[nodiscard]] motion_blur::BlurBudget
+computeBudget(const PlaySettings& settings, double otherMilliseconds);
 
 /// One sentence naming the field that is out of its range.
 [[nodiscard]] core::Status validate(const PlaySettings& settings);

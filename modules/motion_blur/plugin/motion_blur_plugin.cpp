@@ -20,9 +20,9 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
     std::string reason = "the budget is unlimited";
     if (!budget.budget().isUnlimited())
         reason = droppedQuality.empty()
-                     ? fmt::format("everything fits into {} ms", budget.budget().milliseconds)
+                     ? fmt::format("everything fits into {:.3g} ms", budget.budget().milliseconds)
                      : fmt::format(
-                           "{} ms is too little: gave up {}",
+                           "{:.3g} ms is too little: gave up {}",
                            budget.budget().milliseconds,
                            droppedQuality
                        );
@@ -53,6 +53,10 @@ constexpr size_t kNoLevel = SIZE_MAX;
 
 } // namespace
 
+std::string nameReplacement(const Method& wanted) {
+    return fmt::format("{} is drawn by", wanted.name);
+}
+
 MotionBlurPlugin::MotionBlurPlugin(
     gpu::Device& device,
     const gpu_scene::GpuScene& scene,
@@ -65,8 +69,10 @@ MotionBlurPlugin::MotionBlurPlugin(
 void MotionBlurPlugin::configure(
     const MotionBlurSettings& settings, const BlurBudget& budget, UntilReady untilReady
 ) {
-    if (settings != mWanted || budget.milliseconds != mBudget.budget().milliseconds)
+    if (settings != mWanted)
         mBudget = BudgetController(budget, settings);
+    else
+        mBudget.setBudget(budget);
     mWanted = settings;
     mUntilReady = untilReady;
     chooseStandIn();
@@ -209,7 +215,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
     inputs.wantsMethodCounters = context.facts.countersWanted;
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
-    mDrawn.at(context.slot) = {level, keepsOnly, standsIn, readsHistory()};
+    mDrawn.at(context.slot
+    ) = {level, keepsOnly, standsIn, readsHistory(), mWanted.method, settings().method};
     inputs.slot = context.slot;
     inputs.surfaces = mBlended.wanted(context.slot);
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
@@ -251,6 +258,12 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
     mBlended.count(frame.slot, frame.counters);
     explainCrowds(frame);
     frame.measures["blur ms"] = milliseconds;
+    if (drawn.method != drawn.wanted)
+        frame.explanations.push_back(
+            {render::ExplainedKind::Work,
+             nameReplacement(*drawn.wanted),
+             {true, drawn.method->name}}
+        );
     if (drawn.standsIn)
         frame.measures["blur stands in"] = 1.0;
     else if (!mBudget.budget().isUnlimited())

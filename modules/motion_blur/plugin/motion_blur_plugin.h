@@ -23,6 +23,10 @@ enum class UntilReady : uint8_t {
     StandIn, ///< Method::standIn draws it
 };
 
+/// Subject of the explanation of frames that another method draws in place of `wanted`: a stand-in,
+/// or the budget's. Its reason is that method's name.
+[[nodiscard]] std::string nameReplacement(const Method& wanted);
+
 class MotionBlurPlugin : public render::PostEffect {
   public:
     /// Settings and budget must be valid.
@@ -33,8 +37,8 @@ class MotionBlurPlugin : public render::PostEffect {
         const BlurBudget& budget = {}
     );
 
-    /// For the frames to come; settings and budget must be valid. The budget restarts if either of
-    /// them changed.
+    /// For the frames to come; settings and budget must be valid. The budget restarts if the
+    /// settings changed.
     void configure(
         const MotionBlurSettings& settings,
         const BlurBudget& budget,
@@ -81,10 +85,12 @@ class MotionBlurPlugin : public render::PostEffect {
   private:
     /// State of a slot's frame.
     struct Drawn {
-        size_t level = 0;        ///< of the budget, or kNoLevel
-        bool keepsOnly = false;  ///< onlyKeeps()
-        bool standsIn = false;   ///< by Method::standIn
-        bool hasHistory = false; ///< readsHistory()
+        size_t level = 0;               ///< of the budget, or kNoLevel
+        bool keepsOnly = false;         ///< onlyKeeps()
+        bool standsIn = false;          ///< by Method::standIn
+        bool hasHistory = false;        ///< readsHistory()
+        const Method* wanted = nullptr; ///< of the settings
+        const Method* method = nullptr; ///< that draws it
     };
 
     /// The next frame is drawn with them.

@@ -180,6 +180,24 @@ TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
         }
 }
 
+TEST(Budget, AChangedLimitKeepsTheLevelAndIsFollowedAndNoLimitRestoresAll) {
+    const MotionBlurSettings settings = settingsOf(&getMethod("hybrid"));
+    BudgetController steady({12.0}, settings);
+    drive(steady, {}, 400);
+    BudgetController wavering({12.0}, settings);
+    for (int i = 0; i < 400; ++i) {
+        wavering.setBudget({i % 2 ? 12.3 : 11.7});
+        drive(wavering, {}, 1);
+    }
+    EXPECT_EQ(wavering.level(), steady.level());
+    wavering.setBudget({60.0});
+    EXPECT_EQ(wavering.level(), steady.level());
+    drive(wavering, {}, 4000);
+    EXPECT_EQ(wavering.level(), 0u);
+    steady.setBudget({});
+    EXPECT_EQ(steady.level(), 0u);
+}
+
 TEST(Budget, NoiseCausesNoOscillation) {
     for (uint32_t seed = 1; seed <= 5; ++seed)
         for (const double budget : {8.0, 15.0, 25.0, 38.0}) {

@@ -2,6 +2,8 @@
 // What the panel and the head-up display show of a frame.
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/pass_history.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 
 #include <gtest/gtest.h>
 
@@ -20,30 +22,65 @@ render::FrameStatistics makeBudgetFrame(double level) {
     return statistics;
 }
 
-TEST(HudText, AMethodThatGaveSomethingUpIsCalledReducedAndOneThatKeptAllHasItsNameAlone) {
-    const auto frame = makeBudgetFrame(2.0);
-    EXPECT_EQ(describeMethod("resolved", &frame, {16.0}), "resolved, reduced: 16 ms budget");
-    EXPECT_EQ(describeMethod("gather", &frame, {0.1}), "gather, reduced: 0.1 ms budget");
+/// Another method drew the frame in place of `wanted`.
+render::FrameStatistics drawnBy(render::FrameStatistics frame, const char* wanted, const char* by) {
+    frame.explanations.push_back(
+        {render::ExplainedKind::Work,
+         motion_blur::nameReplacement(motion_blur::getMethod(wanted)),
+         {true, by}}
+    );
+    return frame;
+}
+
+TEST(HudText, AReducedMethodIsNamedByWhatDrawsAndOneThatKeptAllHasItsNameAlone) {
     const auto whole = makeBudgetFrame(0.0);
     const auto reduced = makeBudgetFrame(2.0);
+    const auto replaced = drawnBy(makeBudgetFrame(4.0), "resolved", "own_velocity");
     const render::FrameStatistics unlimited; // measures nothing
-    EXPECT_EQ(describeMethod("resolved", &whole, {16.0}), "resolved");
-    EXPECT_EQ(describeMethod("resolved", &unlimited, {}), "resolved");
-    EXPECT_EQ(describeMethod("resolved", nullptr, {16.0}), "resolved") << "no frame is done yet";
+    EXPECT_EQ(describeMethod("resolved", &whole, true), "resolved");
+    EXPECT_EQ(describeMethod("resolved", &reduced, true), "resolved, reduced: budget, F1");
+    EXPECT_EQ(describeMethod("resolved", &replaced, true), "own_velocity for resolved: budget, F1");
+    EXPECT_EQ(findDrawnMethod("resolved", &replaced), "own_velocity");
+    EXPECT_EQ(describeMethod("resolved", &unlimited, false), "resolved");
+    EXPECT_EQ(describeMethod("resolved", nullptr, true), "resolved") << "no frame is done yet";
     // The player took the budget away; the last finished frame had it still.
-    EXPECT_EQ(describeMethod("resolved", &reduced, {}), "resolved");
+    EXPECT_EQ(describeMethod("resolved", &reduced, false), "resolved");
+    // The player chose another method; the last finished frame had the one before.
+    EXPECT_EQ(findDrawnMethod("denoised", &replaced), "denoised");
 }
 
 TEST(HudText, AMethodThatAnotherStandsInForNamesIt) {
-    auto frame = makeBudgetFrame(2.0);
+    auto frame = drawnBy(makeBudgetFrame(2.0), "hybrid", "gather");
     frame.measures["blur stands in"] = 1.0;
     EXPECT_EQ(
-        describeMethod("hybrid", &frame, {16.0}), "hybrid: gather until its pipelines are made"
+        describeMethod("hybrid", &frame, true), "hybrid: gather until its pipelines are made"
     );
     // The player chose another method; the last finished frame had the one before.
-    frame.measures.erase("blur budget level");
-    EXPECT_EQ(describeMethod("resolved", &frame, {16.0}), "resolved");
-    EXPECT_EQ(describeMethod("truth", &frame, {16.0}), "truth");
+    EXPECT_EQ(describeMethod("resolved", &frame, true), "resolved");
+    EXPECT_EQ(describeMethod("truth", &frame, true), "truth");
+}
+
+TEST(HudText, TheBlursShareOfAFrameIsShownUnlessFramesOverlap) {
+    render::FrameStatistics frame;
+    frame.passes.push_back({"resolve", 30.0, 0.0, render::PassOwner::Blur});
+    EXPECT_EQ(describeBlurCost("gather", frame, 120.0), "motion blur 30.0 ms (25 % of the frame)");
+    EXPECT_EQ(describeBlurCost("gather", frame, 20.0), "motion blur 30.0 ms");
+    EXPECT_EQ(describeBlurCost("gather", frame, 0.0), "motion blur 30.0 ms");
+}
+
+TEST(HudText, TheStateNamesTheViewAndAMissingOne) {
+    PanelFacts facts;
+    EXPECT_EQ(describeState(facts, ""), "");
+    EXPECT_EQ(describeState(facts, "depth"), "view: depth");
+    facts.paused = facts.isViewMissing = true;
+    EXPECT_EQ(describeState(facts, "tiles"), "paused, view: tiles, which this frame does not have");
+    facts.photo = true;
+    facts.photoMethod = "truth";
+    facts.photoRays = 1;
+    EXPECT_EQ(describeState(facts, "tiles"), "photo mode: truth, 1 ray per pixel");
+    facts.photoRays.reset();
+    facts.photoMethod = "gather";
+    EXPECT_EQ(describeState(facts, ""), "photo mode: gather");
 }
 
 TEST(PanelRows, TheCountOfSamplesIsShownForTapsAndInstantsAndRaysHaveTheirOwn) {

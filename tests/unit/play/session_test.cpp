@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What `shutter play` begins with, and the keys that change it.
+#include "game/play/loop/first_use.h"
 #include "game/play/loop/hotkeys.h"
 #include "game/play/loop/numbered_file.h"
 #include "game/play/loop/play_options.h"
@@ -131,6 +132,29 @@ TEST(PlayOptions, WrongUsageIsReportedByOption) {
     }
 }
 
+TEST(PlayOptions, AStageThatIsNeitherADemoNorAFileIsRefusedWithTheDemosNames) {
+    const test::TempFolder folder;
+    PlayArguments arguments;
+    EXPECT_TRUE(checkStage(interpret(arguments).value()));
+    arguments.shot.scene = folder.write("a.glb", "");
+    EXPECT_TRUE(checkStage(interpret(arguments).value()));
+    arguments.shot.scene = "nosuch";
+    EXPECT_EQ(
+        checkStage(interpret(arguments).value()).error().message,
+        "'nosuch' is neither a demo (rally, gallery, spin) nor a file"
+    );
+}
+
+TEST(PlayOptions, AFilmShowsTheHeadUpDisplayOnlyIfThatIsTyped) {
+    PlayArguments arguments;
+    arguments.filmsHud = true;
+    test::expectRefused(interpret(arguments), "--film-hud");
+    arguments.film = "film%04d.png";
+    EXPECT_TRUE(interpret(arguments).value().filmsHud);
+    arguments.filmsHud = false;
+    EXPECT_FALSE(interpret(arguments).value().filmsHud);
+}
+
 class Keeper : public testing::Test {
   protected:
     PlaySettings load(const std::string& lens, const PlayOptions& named) {
@@ -158,6 +182,39 @@ TEST_F(Keeper, AnOpenFStopTurnsDepthOfFieldOn) {
     PlayOptions closed;
     closed.fStop = 0.0;
     EXPECT_FALSE(load(R"({"fStop": 2})", closed).depthOfField);
+}
+
+TEST_F(Keeper, WithoutAGpuTheBudgetIsAShareOfTheFrameAndAPresetOfTheOptionsStays) {
+    PlaySettings settings;
+    settings.budget.milliseconds = 16.0;
+    PlayOptions options;
+    EXPECT_NE(SettingsKeeper::slowDown(options, settings), "");
+    EXPECT_TRUE(isApplied(*findPreset("performance").value(), settings));
+    EXPECT_TRUE(settings.budget.isUnlimited());
+    EXPECT_EQ(settings.budgetShare, 0.25);
+    // Of the frame: the blur takes a quarter where all else takes 300 ms.
+    EXPECT_NEAR(computeBudget(settings, 300.0).milliseconds, 100.0, 1e-9);
+    EXPECT_TRUE(computeBudget(settings, 0.0).isUnlimited()) << "no frame is finished yet";
+    settings.budget.milliseconds = 16.0;
+    EXPECT_EQ(computeBudget(settings, 300.0).milliseconds, 16.0);
+    settings.budgetShare = 1.0;
+    EXPECT_EQ(computeBudget(settings, 3.0).milliseconds, 16.0);
+    options.preset = findPreset("quality").value();
+    settings.method = "adaptive";
+    EXPECT_EQ(SettingsKeeper::slowDown(options, settings), "");
+    EXPECT_EQ(settings.method, "adaptive");
+    EXPECT_EQ(settings.budgetShare, 0.25);
+}
+
+TEST_F(Keeper, AMissingFileIsNoMistakeInIt) {
+    PlayOptions options;
+    options.settings = mFolder.write("settings", R"({"version": 1})");
+    SettingsKeeper keeper;
+    std::string message;
+    PlaySettings settings = test::valueOf(keeper.open(options, true, message));
+    fs::remove(options.settings);
+    EXPECT_NE(keeper.load(settings).find("is not there yet"), std::string::npos);
+    EXPECT_EQ(keeper.save(settings), "saved " + options.settings.string());
 }
 
 TEST_F(Keeper, AnEntityToFocusOnReplacesTheDistanceOfTheSettings) {
@@ -292,6 +349,77 @@ TEST_F(Hotkeys, KeysOtherThanSettingsAreRequests) {
     EXPECT_TRUE(press({Key::Escape}).quit);
     const PanelRequests none = press({});
     EXPECT_FALSE(none.quit || none.save || none.load || none.togglePause || none.singleStep);
+}
+
+TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
+    const auto explain = [&](Key key, const KeyFacts& facts) {
+        app::InputCollector input;
+        input.setKey(key, true);
+        return explainIdleKeys(input.take(), facts, settings);
+    };
+    const KeyFacts plays{.hasEnvironment = true, .hasParticles = true, .speed = 0.5};
+    settings.split = true;
+    for (const Key key :
+         {Key::M,
+          Key::N,
+          Key::V,
+          Key::C,
+          Key::E,
+          Key::B,
+          Key::Digit6,
+          Key::Digit8,
+          Key::Digit0,
+          Key::Comma,
+          Key::Slash})
+        EXPECT_EQ(explain(key, plays), "") << int(key);
+    KeyFacts rests = plays;
+    rests.stageRests = true;
+    EXPECT_NE(explain(Key::C, rests), "");
+    EXPECT_EQ(explain(Key::M, rests), "");
+    settings.split = false;
+    settings.leftMethod = "gather";
+    EXPECT_EQ(explain(Key::N, plays), "left of a split: gather; X shows it");
+    KeyFacts photo = rests;
+    photo.photoMethod = "truth";
+    for (const Key key : {Key::M, Key::V, Key::C})
+        EXPECT_EQ(explain(key, photo), "photo mode draws one picture by truth; T ends it");
+    EXPECT_EQ(explain(Key::Digit6, photo), "truth has smooth edges without help");
+    settings.method = "sharp";
+    EXPECT_NE(explain(Key::B, plays), "");
+    const KeyFacts bare{.speed = 1.0};
+    for (const Key key : {Key::Digit8, Key::Digit0, Key::Slash})
+        EXPECT_NE(explain(key, bare), "") << int(key);
+    EXPECT_EQ(explain(Key::Comma, bare), "");
+}
+
+TEST(Hints, TheKeysAreShownFromTheFirstPictureAndASlowFrameDoesNotUseThemUp) {
+    EXPECT_EQ(countHintDown(30.0, 20.0, false), 30.0);
+    EXPECT_EQ(countHintDown(30.0, 60.0, true), 29.75);
+    EXPECT_EQ(countHintDown(30.0, 0.125, true), 29.875);
+    EXPECT_EQ(countHintDown(0.1, 1.0, true), 0.0);
+}
+
+TEST(FirstUse, APictureBeforeNewShadersAnnouncesThemAndIsDrawnWithKnownOnes) {
+    FirstUse use;
+    PlaySettings wanted; // resolved and all effects
+    EXPECT_EQ(use.notice(), "compiling shaders");
+    const PlaySettings first = use.choose(wanted);
+    EXPECT_EQ(first.method, "sharp");
+    EXPECT_EQ(describeEffects(first), "sky, particles");
+    EXPECT_EQ(use.notice(), "");
+    EXPECT_EQ(use.choose(wanted).method, "resolved");
+    wanted.method = "hybrid";
+    wanted.resolutionScale = 0.5;
+    PlaySettings drawn = use.choose(wanted);
+    EXPECT_EQ(drawn.method, "resolved");
+    EXPECT_EQ(drawn.resolutionScale, 0.5) << "it compiles nothing";
+    EXPECT_EQ(use.notice(), "compiling shaders of hybrid");
+    EXPECT_EQ(use.choose(wanted).method, "resolved") << "the picture with the notice";
+    EXPECT_EQ(use.notice(), "");
+    EXPECT_EQ(use.choose(wanted).method, "hybrid");
+    wanted.method = "resolved";
+    EXPECT_EQ(use.choose(wanted).method, "resolved") << "it was drawn before";
+    EXPECT_EQ(use.notice(), "");
 }
 
 TEST(NumberedFile, TheFirstFreeNumberIsTakenAndItsAbsenceIsReported) {
