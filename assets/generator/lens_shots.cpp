@@ -216,6 +216,94 @@ void furnishLights(GltfWriter& writer) {
     addLensCamera(writer, view, kPortraitFocus);
 }
 
+/// For shots without a room: at the origin, level.
+const Standpoint kLevelView{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}, 0.6f};
+
+Index addGlow(GltfWriter& writer, vec3 color, float alpha = 1.0f) {
+    return writer.addMaterial(
+        {.name = "glow",
+         .color = vec3(0.0f),
+         .emissive = color,
+         .doubleSided = true,
+         .alpha = alpha}
+    );
+}
+
+/// Facing the camera. \param corner lower left, in the plane of the shape
+void addTile(Shape& shape, glm::vec2 corner, glm::vec2 size) {
+    const size_t first = shape.positions.size();
+    for (const glm::vec2 at : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)})
+        addVertex(shape, vec3(corner + at * size, 0.0f), {0.0f, 0.0f, 1.0f}, at);
+    addTriangle(shape, first, first + 1, first + 2);
+    addTriangle(shape, first, first + 2, first + 3);
+}
+
+/// A wall of tiles that fills the picture of kLevelView and more.
+/// \param tilePx length of their sides in a picture 270 px high \param turn of their rows, radians
+void addTiledWall(GltfWriter& writer, float depth, float tilePx, float turn) {
+    constexpr int kColors = 6;
+    constexpr int kHalfCount = 30;
+    const float metres = tilePx * depth * std::tan(kLevelView.yFov / 2.0f) / 135.0f;
+    std::array<Shape, kColors> shapes;
+    for (int y = -kHalfCount; y < kHalfCount; ++y)
+        for (int x = -kHalfCount; x < kHalfCount; ++x) {
+            Shape& shape = shapes.at(size_t(hash(x, y, 1) * float(kColors)));
+            addTile(shape, glm::vec2(x, y) * metres, glm::vec2(metres));
+        }
+    for (int i = 0; i < kColors; ++i) {
+        const vec3 color{hash(i, 0, 2), hash(i, 1, 2), hash(i, 2, 2)};
+        addObject(
+            writer,
+            {.name = "wall",
+             .translation = kLevelView.at(depth, 0.003f, 0.002f),
+             .rotation = glm::angleAxis(turn, vec3(0.0f, 0.0f, 1.0f))},
+            shapes.at(size_t(i)),
+            addGlow(writer, color * color)
+        );
+    }
+}
+
+void furnishWall(GltfWriter& writer) {
+    addTiledWall(writer, 6.0f, 11.3f, 0.2f);
+    addLensCamera(writer, kLevelView, {4.0f, 6.0f, 0.85f});
+}
+
+void furnishFar(GltfWriter& writer) {
+    addTiledWall(writer, 8.0f, 24.3f, 0.0f);
+    Shape ball = sphere(0.12f, 48, 24);
+    addObject(
+        writer,
+        {.name = "ball",
+         .translation = kLevelView.at(2.0f, 0.1f, -0.05f),
+         .linearVelocity = vec3(0.13f, 0.04f, 0.0f) / kExposureSeconds},
+        ball,
+        addGlow(writer, {0.7f, 0.45f, 0.1f})
+    );
+    addLensCamera(writer, kLevelView, {2.0f, 8.0f, 8.0f});
+}
+
+void furnishPanes(GltfWriter& writer) {
+    addTiledWall(writer, 8.0f, 17.3f, 0.1f);
+    const auto addPane = [&](const NodeDesc& node, glm::vec2 size, vec3 color) {
+        Shape pane;
+        addTile(pane, -0.5f * size, size);
+        addObject(writer, node, pane, addGlow(writer, color, 0.55f));
+    };
+    addPane(
+        {.name = "near_pane", .translation = kLevelView.at(1.116f, -0.2f, 0.02f)},
+        {0.25f, 0.4f},
+        {0.8f, 0.7f, 0.2f}
+    );
+    addPane(
+        {.name = "moving_pane",
+         .translation = kLevelView.at(2.0f, 0.3f, -0.05f),
+         .linearVelocity = vec3(0.14f, 0.03f, 0.0f) / kExposureSeconds},
+        {0.4f, 0.7f},
+        {0.2f, 0.5f, 0.9f}
+    );
+    addLensCamera(writer, kLevelView, {5.0f, 1.116f, 6.5f});
+}
+
 constexpr std::array kLensShots = {
     LensShot{
         "near",
@@ -271,6 +359,20 @@ constexpr std::array kLensShots = {
         "Twenty-four small lamps, each a bright disc behind a sharp head.",
         kPinkRoom,
         &furnishLights},
+    LensShot{
+        "wall", "Wall nearly in focus", "All of it is spread over 1.7 px.", nullptr, &furnishWall},
+    LensShot{
+        "far",
+        "Ball in focus before a far wall",
+        "The wall is spread over 16 px, also from beyond the picture; the ball moves by 30 px.",
+        nullptr,
+        &furnishFar},
+    LensShot{
+        "panes",
+        "Panes of glass before a wall nearly in focus",
+        "One pane rests and is spread over 13 px, one moves by 32 px and is spread over 6.",
+        nullptr,
+        &furnishPanes},
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shots of rooms with a lens: added objects, their motion, and the camera.
+// Shots with a lens, most of them of rooms: added objects, their motion, and the camera.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -15,7 +15,8 @@ struct LensShot {
     const char* name;        ///< [a-z]
     const char* title;       ///< for people
     const char* description; ///< one sentence
-    const char* room;        ///< binary glTF file, relative to the folder of rooms
+    /// Binary glTF file, relative to the folder of rooms; null: the shot has all that it shows.
+    const char* room;
     /// Adds the camera kLensCamera, laid out for an exposure of kExposureSeconds that ends at time
     /// 0, and the shot's objects besides the room.
     void (*furnish)(GltfWriter& writer);

@@ -299,6 +299,21 @@ TEST_F(AdaptiveLaw, RaysPassTheSamePlacesOfTheLensAsLookupsOfResolved) {
     EXPECT_GE(image::computePsnr(stage.render(shot).color, truth), lookedUp + 1.0);
 }
 
+TEST_F(AdaptiveLaw, RaysGoFirstToWhatALensSeesBeyondThePicturesBorder) {
+    // Nothing but what lies beyond the border is not found.
+    SceneBuilder scene = test::makeWavyRoom(5.0, 14.0, 9.0, kView);
+    scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.1, .focusDistance = 2.0});
+    Stage stage(device(), scene);
+    Shot shot = makeLensShot("accumulate");
+    const image::Image many = stage.render(shot).color;
+    shot.settings.sampleCount = 16;
+    shot.method = "resolved";
+    const double lookedUp = image::computePsnr(stage.render(shot).color, many);
+    shot.method = "adaptive";
+    shot.settings.raysPerPixel = 1.0f;
+    EXPECT_GE(image::computePsnr(stage.render(shot).color, many), lookedUp + 3.0);
+}
+
 TEST_F(LensLaw, DenoisedRaysAreTheTruthsWhereThereAreMany) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "needs ray queries";
@@ -339,6 +354,45 @@ TEST_F(LensLaw, LensAndShutterTogetherAreTheMeanOverBoth) {
     EXPECT_GE(both, 52.0);
     EXPECT_GE(both, image::computePsnr(lensOnly, mean) + 6.0);
     EXPECT_GE(both, image::computePsnr(timeOnly, mean) + 6.0);
+}
+
+TEST_F(LensLaw, GlassIsSpreadByItsOwnDepthAndNotByThatOfWhatLiesBehindIt) {
+    // In focus is the glass, then the wall. In the raster glass is spread as the wall is.
+    for (const auto& [focus, least] : {std::pair{2.0, 35.0}, {5.0, 32.0}}) {
+        SceneBuilder scene = test::makeWavyRoom(5.0, 14.0, 9.0, kView);
+        scene.world.registry.add(scene.camera, CameraLens{.fStop = 0.15, .focusDistance = focus});
+        for (int i = -2; i <= 2; ++i)
+            scene.add(
+                test::makeQuad(0.25, 1.2, test::addGlass(scene, {0.9f, 0.8f, 0.7f, 0.7f}, true)),
+                {.position = {0.45 * i, 0.05 * i, -2}}
+            );
+        Stage stage(device(), scene);
+        Shot shot = makeLensShot("accumulate");
+        const image::Image many = stage.render(shot).color;
+        shot.method = "resolved";
+        EXPECT_GE(image::computePsnr(stage.render(shot).color, many), least) << focus;
+    }
+}
+
+TEST_F(LensLaw, ACircleOfLessThanTwoPixelsBlursEdgesAsManyPicturesDo) {
+    // A wall of squares, 1.7 px out of focus.
+    SceneBuilder scene = makeLensStage({.fStop = 1.0, .focusDistance = 4.0});
+    for (int i = -8; i < 8; ++i)
+        for (int j = -5; j < 5; ++j)
+            test::addCard(
+                scene,
+                {0.31, 0.31},
+                {(i & 1) ? 0.9f : 0.1f, (j & 1) ? 0.8f : 0.2f, ((i + j) & 2) ? 0.7f : 0.1f},
+                {.position = {0.323 * i, 0.323 * j, -5}}
+            );
+    auto& lens = scene.world.registry.get<CameraLens>(scene.camera);
+    lens.fStop *= computeConfusionRadius(lens, 5.0) / 0.85;
+    Stage stage(device(), scene);
+    Shot shot = makeLensShot("accumulate");
+    const image::Image many = stage.render(shot).color;
+    shot.method = "resolved";
+    shot.settings.sampleCount = 16;
+    EXPECT_GE(image::computePsnr(stage.render(shot).color, many), 33.0);
 }
 
 TEST_F(LensLaw, ResolvedIsNearTheMeanOfManyPicturesWithAndWithoutMotion) {

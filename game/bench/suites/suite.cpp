@@ -409,8 +409,16 @@ Suite makeLensSuite() {
         shot.name = from.name;
         shot.title = from.title;
         shot.description = from.description;
-        shot.room = from.room;
-        shot.furnish = from.furnish;
+        if (from.room) {
+            shot.room = from.room;
+            shot.furnish = from.furnish;
+        } else {
+            shot.writeScene = makeWriter([name = std::string(from.name), furnish = from.furnish] {
+                generator::GltfWriter writer(name);
+                furnish(writer);
+                return writer;
+            });
+        }
         shot.shot.camera = generator::kLensCamera;
         shot.shot.clips = {"none"}; // the rooms' own, which would add to the shot's motion
         shot.shot.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
