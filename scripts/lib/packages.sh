@@ -11,10 +11,11 @@ build_packages=(
     libvulkan-dev libglfw3-dev libglm-dev libfmt-dev libcli11-dev nlohmann-json3-dev
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
     libimgui-dev fonts-dejavu-core vulkan-validationlayers libjs-chart.js
+    ffmpeg # for films
 )
-# Only the tests compare with ffmpeg and scikit-image, look at the report page in a browser and at
+# Only the tests compare with scikit-image, look at the report page in a browser and at
 # windows on a display without a screen, and have hosts with volk.
-test_packages=(libgtest-dev ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox
+test_packages=(libgtest-dev python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox
     libvulkan-volk-dev)
 # Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
 debian_test_packages=(chromium chromium-driver)
