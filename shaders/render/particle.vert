@@ -17,6 +17,7 @@ layout(location = 14) flat out vec2 outTurn;         // a picture's angle at shu
 
 const float kNoticeable = 0.1f; // change of a colour or a direction
 const float kGrows = 0.05f;     // change of a size
+const float kStraight = 0.03f;  // radii between a way and its chord
 
 /// Light that the particle sends back of what reaches it from everywhere, per unit of its colour:
 /// evenly in all directions, as a puff of small grains does.
@@ -66,7 +67,9 @@ vec2 clipNear(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, float
     return before > 0.0f ? vec2(first, crossing) : vec2(crossing, last);
 }
 
-bool bends(vec2 places[3]) {
+/// Whether a way takes two segments. \param changes size or colour changes along it
+bool bends(vec2 places[3], bool changes, float radiusPx) {
+    if (changes) return distance(places[1], 0.5f * (places[0] + places[2])) > kStraight * max(radiusPx, 1.0f);
     vec2 first = places[1] - places[0];
     vec2 second = places[2] - places[1];
     float bend = abs(first.x * second.y - first.y * second.x);
@@ -111,7 +114,7 @@ uint fillSegments(FrameRef frame, ParticleRow row, ParticleEmitterRow emitter, v
     float mean = 0.5f * (light.x + light.y);
     outTimes = vec3(alive.x, isEvenInLight ? respondAt(draw.response, mean) : 0.5f * (alive.x + alive.y), alive.y);
     if (middle >= 0.0f) outTimes.y = middle;
-    uint segments = isBox ? (bends(places) ? 2u : 1u) * (middle >= 0.0f ? 2u : 1u) : kMaxStreakSegments;
+    uint segments = isBox ? (bends(places, outKind.z != 0u, radii.y) ? 2u : 1u) * (middle >= 0.0f ? 2u : 1u) : kMaxStreakSegments;
     if (alive.x == alive.y) segments = 1u;
     for (uint i = 0u; i <= segments; ++i) {
         float s = isEvenInLight ? respondAt(draw.response, cutSpan(vec3(light.x, mean, light.y), segments, i))
