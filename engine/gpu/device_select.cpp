@@ -209,9 +209,9 @@ DeviceInfo describeDevice(VkPhysicalDevice device, VkSurfaceKHR surface) {
     const auto extensions = listExtensions(device);
     info.isPortable = hasExtension(extensions, kPortabilitySubset);
     findRobustness(info, extensions);
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(device, &features);
-    info.interpolatesAnywhere = features.sampleRateShading;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    info.interpolatesAnywhere = features.features.sampleRateShading;
     findRays(info, extensions);
     info.rayTier = chooseTier(info, RayTier::RayQuery);
     return info;
