@@ -248,7 +248,7 @@ std::vector<BenchCase> makeCases() {
             "has one motion",
             &buildSmokeCase,
             kYardSky,
-            {15.0f, 25.0f}
+            {15.0f, 26.0f}
         )),
         withParticlesAlone(makeCase(
             "additive_sparks",
