@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <sys/types.h>
 #include <utility>
 #include <vector>
@@ -118,8 +119,16 @@ class Film : public Cli {
         std::vector<pid_t> drawing;
         for (const pid_t child : listChildren(film))
             for (const pid_t own : listChildren(child))
-                drawing.push_back(own);
+                if (readName(own) == "shutter") // not what counts the frames that are done
+                    drawing.push_back(own);
         return drawing;
+    }
+
+    static std::string readName(pid_t process) {
+        std::ifstream file(fmt::format("/proc/{}/comm", process));
+        std::string name;
+        std::getline(file, name);
+        return name;
     }
 };
 

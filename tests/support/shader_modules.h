@@ -56,6 +56,8 @@ inline bool isCapabilityEnabled(const EnabledFeatures& enabled, uint32_t capabil
     case 1:  // Shader
     case 50: // ImageQuery
         return true;
+    case 52: // InterpolationFunction
+        return enabled.core.sampleRateShading;
     case 49: // StorageImageExtendedFormats
         return enabled.core.shaderStorageImageExtendedFormats;
     case 5301: // ShaderNonUniform

@@ -176,6 +176,8 @@ RayTier tierOf(const test::ShaderModule& module) {
 TEST(ShaderModules, AllModulesUseOnlyEnabledFeatures) {
     DeviceFeatures features;
     features.enableNeeded();
+    // Enabled where there is one: without it a raster has one sample per pixel.
+    features.core.features.sampleRateShading = VK_TRUE;
     for (const auto& module : readAll())
         for (const std::string& lacking : test::findLacking(
                  module, {features.core.features, features.v12, features.v13, tierOf(module)}
