@@ -44,7 +44,7 @@ bool isHidden(PixelSearch pixel, uint sample_, vec4 lens, float along) {
         // The others are farther.
         if (candidate.key == kSkyKey || alongOf(uintBitsToFloat(candidate.nearest), true) <= along)
             return false;
-        Seen found = Seen(false, kRasterLayer, kNoKey, pixel.x, 0.0f, false, kAnyRange, false);
+        Seen found = Seen(false, kRasterLayer, kNoKey, pixel.x, 0.0f, false, kAnyRange);
         Guess guess = Guess(kNoKey, 0.0f);
         Doubt doubt = kNoDoubt;
         if (isDeformed(candidate.mover))

@@ -59,7 +59,7 @@ void searchFrom(
         if (fetchSurface(index, ivec2(next)).key != surface.key) return;
         // Among many small entities, colours next to edges are interpolated as elsewhere.
         float depth = behindSky(surface.key, displaced.depth);
-        keepNearer(best, Seen(true, index, surface.key, next, depth, true, kAnyRange, false), pixel.x);
+        keepNearer(best, Seen(true, index, surface.key, next, depth, true, kAnyRange), pixel.x);
         return;
     }
 }

@@ -70,7 +70,6 @@ struct Seen {
     float depth;  // at the instant
     bool isInner; // all that the layer shows around the place is of the same entity or plane
     uint range;   // of depths in the layer that the surface has (TileCandidates::ranges)
-    bool isBeyond; // the picture's border is shown in its place (withinBorder())
 };
 
 /// The surface of a layer's pixel.

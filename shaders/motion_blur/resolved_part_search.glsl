@@ -67,7 +67,7 @@ void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt)
             return;
         }
         bool inner = isInner(surface.innerCorners, at - floor(at));
-        Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner, kAnyRange, false);
+        Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner, kAnyRange);
         keepNearer(found, seen, search.x);
         return;
     }

@@ -110,8 +110,7 @@ bool searchRigid(
     uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
     inout float begin, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 place = placeOn(ray, begin, perspective);
-    vec2 at = withinBorder(layer, place);
+    vec2 at = withinBorder(layer, placeOn(ray, begin, perspective));
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
@@ -129,8 +128,7 @@ bool searchRigid(
         if (perspective && depth < kMinDepth) return false;
         float along = alongOf(depth, perspective);
         if (spreadPx >= kArrivedPx) {
-            place = placeOn(ray, along, perspective);
-            vec2 next = withinBorder(layer, place);
+            vec2 next = withinBorder(layer, placeOn(ray, along, perspective));
             float way = distance(next, at);
             at = next;
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
@@ -142,8 +140,7 @@ bool searchRigid(
             }
         }
         begin = along;
-        found =
-            Seen(true, layer, key, at, behindSky(key, depth), false, range, kHasLens && !isInside(place));
+        found = Seen(true, layer, key, at, behindSky(key, depth), false, range);
         return true;
     }
     return false;
@@ -159,8 +156,7 @@ uint searchInner(
     uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
     inout float guess, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 unlimited = placeOn(ray, guess, perspective);
-    vec2 at = withinBorder(layer, unlimited);
+    vec2 at = withinBorder(layer, placeOn(ray, guess, perspective));
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurfaceAt(layer, at);
@@ -172,16 +168,12 @@ uint searchInner(
     float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
     float along = alongOf(depth, perspective);
     vec2 place = at;
-    if (spreadPx >= kArrivedPx) {
-        unlimited = placeOn(ray, along, perspective);
-        place = withinBorder(layer, unlimited);
-    }
+    if (spreadPx >= kArrivedPx) place = withinBorder(layer, placeOn(ray, along, perspective));
     if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
     if (perspective && depth < kMinDepth) return kUnclear;
     guess = along;
-    found =
-        Seen(true, layer, key, place, behindSky(key, depth), true, range, kHasLens && !isInside(unlimited));
+    found = Seen(true, layer, key, place, behindSky(key, depth), true, range);
     return kFound;
 }
 
@@ -331,7 +323,7 @@ void searchLayer(
         bool isBehind = best.isFound && (candidate.key == kSkyKey ||
                                          uintBitsToFloat(candidate.nearest) > best.depth);
         if (!kFindsEdges && isBehind) break;
-        Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false, kAnyRange, false);
+        Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false, kAnyRange);
         Guess tried = guess;
         if (isDeformed(candidate.mover))
             searchPart(
@@ -357,7 +349,7 @@ Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
     Probe surface = fetchSurface(index, pixel);
     return Seen(
         isStillMover(layer, findMover(layer, surface.key)), index, surface.key, vec2(pixel) + 0.5f,
-        surface.depth, false, kAnyRange, false
+        surface.depth, false, kAnyRange
     );
 }
 
@@ -395,10 +387,10 @@ PixelSearch beginSearch(ivec2 pixel) {
             search.lastRanges = readRange(kLastLayer, search.tile, kRangesMask);
     }
     search.still = findStill(kRasterLayer, search.raster, pixel);
-    search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false, kAnyRange, false);
+    search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false, kAnyRange);
     if (kHasSecond && !search.still.isFound)
         search.secondStill = findStill(kSecondLayer, search.second, pixel);
-    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false, kAnyRange, false);
+    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false, kAnyRange);
     if (has(method, kHasLastLayer) && !search.still.isFound)
         search.lastStill = findStill(kLastLayer, search.last, pixel);
     return search;
@@ -468,9 +460,7 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
                     InstantMotionsRef(method.motions), blockSample, uBlockSamples[index + 1u],
                     sample_, pixel.set, pixel.inBlock
                 ).step_;
-            return Seen(
-                true, kRasterLayer, kNoKey, at, 0.0f, true, kAnyRange, kHasLens && !isInside(at)
-            );
+            return Seen(true, kRasterLayer, kNoKey, at, 0.0f, true, kAnyRange);
         }
         slots = blockSample.perY;
     }
@@ -501,9 +491,14 @@ Seen searchInstant(
     return seen;
 }
 
+/// Whether the picture's border is shown in place of what a lens sees beyond it (withinBorder()).
+bool isAtBorder(vec2 at) {
+    return any(lessThanEqual(at, vec2(0.5f))) || any(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
+}
+
 /// How much harm it may do not to trace the sample.
 uint classify(Seen seen, vec3 color, Doubt doubt) {
-    if (!seen.isFound || seen.isBeyond) return kUnresolvedClass;
+    if (!seen.isFound || (kHasLens && isAtBorder(seen.at))) return kUnresolvedClass;
     noteEdge(seen, color, doubt);
     if (!doubt.hasEdge) return kOtherClass;
     vec3 gap = max(abs(doubt.leastAcross - color), abs(doubt.greatestAcross - color));
