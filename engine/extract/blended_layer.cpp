@@ -205,8 +205,8 @@ class LayerPlanner {
         }
     }
 
-    /// Of an instant: of the sample whose depth is looked up for it, as pixels without sets of
-    /// their own have it.
+    /// The place in the lens at an instant. It is that of the sample that supplies the instant's
+    /// depth in the set of samples that all pixels share.
     math::dvec2 placeInLens(uint32_t instant, uint32_t count) const {
         const uint32_t all = mLayer.readsInstants ? mLimits.instants : count;
         const uint32_t taken = shader::takenInstant(instant, count, all);

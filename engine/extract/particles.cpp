@@ -93,8 +93,9 @@ class BirthPlace {
     }
 
   private:
-    /// Of the entity, m/s: between it and a jump where that is nearer than kStep, and right after
-    /// the jump from before it. Recorded motion is known up to a birth, not beyond.
+    /// Of the entity, m/s, as a difference over kStep. A jump nearer than that shortens the step;
+    /// right after a jump, the step ends before it. Recorded motion ends at the birth, so the step
+    /// lies before it.
     [[nodiscard]] dvec3 velocityAt(double seconds) const {
         constexpr double kStep = 1.0e-3;
         constexpr double kLongestJump = 0.25 * kStep;

@@ -30,10 +30,11 @@ struct ParticleTables {
     /// Parts of the exposure in which particles are drawn one after another in their order; [1,
     /// shader::kMaxParticleParts].
     uint32_t parts = 1;
-    /// Of any point of one that is seen, in the exposure: it goes, grows, turns its picture.
+    /// The longest path in the picture of any point of a visible particle within the exposure, from
+    /// its motion, its growth and the rotation of its picture.
     float longestWayPx = 0.0f;
-    bool areFleeting =
-        false; ///< one that is seen comes, goes or changes its colour in the exposure
+    /// A visible particle appears, disappears or changes colour within the exposure.
+    bool areFleeting = false;
     /// Corners of the part of the picture that particles cover in the exposure, and some more.
     math::dvec2 leastPx{std::numeric_limits<double>::infinity()};
     math::dvec2 mostPx{-std::numeric_limits<double>::infinity()};

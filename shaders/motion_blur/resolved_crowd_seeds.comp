@@ -70,7 +70,8 @@ uint findSlot(vec2 way) {
     float fine = max(length(way) / kFineWayPx, 1.0f);
     float cellPx = kSeedCellPx * exp2(floor(log2(fine)));
     ivec2 cell = ivec2(round(way / cellPx));
-    // Of a negative number the remainder is undefined: cells are within 16 either way.
+    // The remainder of a negative number is undefined. Coordinates are in [-16, 16], so the sum is
+    // positive.
     return uint(cell.x + 7 * cell.y + 8 * int(kCrowdSeeds)) % kCrowdSeeds;
 }
 

@@ -193,7 +193,7 @@ bvec4 gatherMatches(uint layer, uint key, uint range, Footprint footprint) {
 float interpolateDepth(uint layer, uint key, uint range, vec2 at, float nearest, bool perspective) {
     Footprint footprint = footprintOf(at);
     vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, range, footprint));
-    // A depth that does not count may be 0: 0 / 0 is no number.
+    // A depth of weight 0 may itself be 0, and 0 / 0 is NaN.
     vec4 depths = mix(vec4(1.0f), gatherDepths(layer, footprint), greaterThan(weights, vec4(0.0f)));
     float sum = dot(weights, vec4(1.0f));
     if (kHasEdges && sum == 0.0f) return nearest;

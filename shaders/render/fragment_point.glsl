@@ -32,8 +32,8 @@ SurfacePoint pointOfFragment() {
     vec4 uvDx = dFdx(inUv);
     vec4 uvDy = dFdy(inUv);
     vec3 normal = cross(dx, dy);
-    // Of the triangle as its winding defines its front. Only the side matters to shading: towards the
-    // viewer for front faces.
+    // The triangle's geometric normal, on the side that its winding defines as the front: for front
+    // faces, the viewer's side.
     bool towardsViewer = dot(normal, point.relWorldPosition) < 0.0f;
     point.geometricNormal = towardsViewer == gl_FrontFacing ? normal : -normal;
     point.normal = inNormal;

@@ -201,11 +201,11 @@ TEST_F(ParticleLaw, ACameraPanBlursParticlesLikeTheWorld) {
     EXPECT_GE(pan.psnr("resolved"), 55.0);
 }
 
-/// Of resolved to the mean of instants, of their light, and of the sharp picture to both.
+/// How near pictures are to the mean of many instants.
 struct Likeness {
-    double psnr = 0.0;
-    double light = 0.0; ///< ratio
-    double sharp = 0.0; ///< PSNR
+    double psnr = 0.0;  ///< of resolved
+    double light = 0.0; ///< of resolved: ratio of the sums of light
+    double sharp = 0.0; ///< PSNR of the sharp picture
 };
 
 Likeness compareChange(gpu::Device& device, const ParticleEmitter& emitter, Shot shot) {

@@ -34,7 +34,7 @@ class FirstUse {
     };
 
     [[nodiscard]] static Needs findNeeds(const PlaySettings& settings);
-    /// The wanted settings, but for what takes the last picture's shaders.
+    /// The wanted settings, with the last picture's method and effects, whose shaders exist.
     [[nodiscard]] PlaySettings reuse(const PlaySettings& wanted) const;
 
     std::set<Needs> mKnown;

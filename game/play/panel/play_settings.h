@@ -34,7 +34,8 @@ struct PlaySettings {
     motion_blur::MotionBlurSettings
         blur{}; ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
-    /// Of a frame's GPU time, that the blur may take besides `budget`, [0.05, 1]; 1: no limit.
+    /// Max share of a frame's GPU time that the blur takes, [0.05, 1]; 1: no limit. `budget`
+    /// applies as well.
     double budgetShare = 1.0;
     scene::CameraShutter shutter = makePlayShutter();
     bool depthOfField = true; ///< false: cameras are pinholes, whatever `lens` is
