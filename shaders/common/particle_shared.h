@@ -89,13 +89,6 @@ SHUTTER_INLINE vec3 particlePlace(ParticleRow row, ParticleEmitterRow emitter, f
            vec3(emitter.gravityDrag) * (age * age * shares.y);
 }
 
-/// m/s.
-SHUTTER_INLINE vec3 particleVelocity(ParticleRow row, ParticleEmitterRow emitter, float age) {
-    vec2 shares = dampedShares(emitter.gravityDrag.w * age);
-    return vec3(row.velocityLife) * exp(-emitter.gravityDrag.w * age) +
-           vec3(emitter.gravityDrag) * (age * shares.x);
-}
-
 /// Metres across.
 SHUTTER_INLINE float particleSize(ParticleRow row, ParticleEmitterRow emitter, float age) {
     return mix(emitter.sizes.x, emitter.sizes.y, clamp(age / row.velocityLife.w, 0.0f, 1.0f));
