@@ -261,14 +261,20 @@ TEST_F(EmbeddedDeformed, ADepthOf0NextToAMoverLosesNoSampleOfIt) {
         forgetFrames();
         mTexels.clear();
         Raster raster = makeRaster(kSliding, rasterTime, 0.0);
+        uint32_t leftOfSquare = 0;
+        while (kSliding.rowAt(leftOfSquare, kPaintedSize.height / 2, rasterTime) != kSquareRow)
+            ++leftOfSquare;
         std::vector<vec4> motionDepth;
         for (uint32_t y = 0; y < kPaintedSize.height; ++y)
-            for (uint32_t x = 0; x < kPaintedSize.width; ++x)
+            for (uint32_t x = 0; x < kPaintedSize.width; ++x) {
+                // Tilted, so that its place depends on the depth, which is interpolated.
+                const float slope = 0.8f + 0.4f * float(y) / float(kPaintedSize.height);
                 motionDepth.push_back(
                     kSliding.rowAt(x, y, rasterTime) == kSquareRow
-                        ? vec4(17.3f, 0.0f, depthOf(kSquareRow), 0.0f)
-                        : vec4(0.0f, 0.0f, depth, 0.0f)
+                        ? vec4(17.3f, 0.0f, depthOf(kSquareRow) * slope, 0.0f)
+                        : vec4(0.0f, 0.0f, x < leftOfSquare ? depth : 20.0f, 0.0f)
                 );
+            }
         raster.motionDepth = &makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kPaintedSize, motionDepth);
         // A metre at a distance of 64 m is a pixel wide.
         const glm::dvec2 half(kPaintedSize.width / 2.0, kPaintedSize.height / 2.0);

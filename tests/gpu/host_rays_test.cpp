@@ -277,15 +277,15 @@ TEST_F(OwnRays, SamplesOfTheHostThroughALensAreOurs) {
 }
 
 TEST_F(OwnRays, AShortListHoldsAllSamplesThatWeTrace) {
-    for (const float raysPerPixel : {0.02f, 0.035f, 0.05f}) {
-        const MotionBlurSettings few = adaptive(raysPerPixel);
-        const StagedFrame drawn = drawSamples(few, few);
-        const auto limit = uint64_t(raysPerPixel * kRaySize.x * kRaySize.y);
-        const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
-        EXPECT_GT(traced, limit / 2);
-        EXPECT_EQ(mCounters.at("rays traced"), traced);
-        expectSame(drawn);
-    }
+    // Samples are traced at random, so that more may be than the limit.
+    constexpr uint32_t kLimit = 10;
+    MotionBlurSettings few = adaptive((kLimit + 0.5f) / float(kRaySize.x * kRaySize.y));
+    few.sampleCount = 28;
+    const StagedFrame drawn = drawSamples(few, few);
+    const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
+    EXPECT_GT(traced, kLimit + 1);
+    EXPECT_EQ(mCounters.at("rays traced"), traced);
+    EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 60.0);
 }
 
 TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
