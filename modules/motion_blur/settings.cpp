@@ -18,6 +18,7 @@ using Row = core::SettingRow<MotionBlurSettings>;
 constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
 constexpr std::string_view kTraversals[] = {"single", "stepping"};
 constexpr std::string_view kMaskTests[] = {"paper", "relative"};
+constexpr std::string_view kComposites[] = {"weights", "counted"};
 constexpr std::string_view kInstantNoises[] = {"off", "fixed", "per_frame"};
 constexpr std::string_view kOccluderTests[] = {"none", "velocity"};
 
@@ -109,6 +110,13 @@ std::vector<Row> makeTapRows() {
 std::vector<Row> makeRayRows() {
     using S = MotionBlurSettings;
     return {
+        {"composite",
+         makeWordField<&S::composite>(kComposites),
+         "",
+         {},
+         "How revealed background enters a pixel: by weights as in the paper, or counted, for each "
+         "tap whose instant shows it.",
+         "Composite"},
         {"backgroundMagnification",
          &S::backgroundMagnification,
          "x",
@@ -280,6 +288,7 @@ MotionBlurSettings paperSettings() {
     settings.foregroundMagnification = 30.0f;
     settings.backgroundMagnification = 3.0f;
     settings.maskTest = MaskTest::Paper;
+    settings.composite = CompositeRule::Weights;
     return settings;
 }
 

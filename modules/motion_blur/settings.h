@@ -33,6 +33,12 @@ enum class MaskTest : uint8_t {
     Relative, ///< of these only ones that move relative to the background and are not behind it
 };
 
+/// How what a ray revealed enters a masked pixel.
+enum class CompositeRule : uint8_t {
+    Weights, ///< both layers are gathered, and their weighted sums added (the paper)
+    Counted, ///< for each tap, as the surface that the pixel saw at its instant
+};
+
 /// Treatment of samples of possible occluders by own velocity.
 enum class OccluderTest : uint8_t {
     None,     ///< takes them all (three.js, Babylon.js)
@@ -66,6 +72,7 @@ struct MotionBlurSettings {
         RevealTraversal::Single;      ///< ObjectTest::Luminance always steps
     float luminanceThreshold = 0.01f; ///< smallest difference that ObjectTest::Luminance sees
     MaskTest maskTest = MaskTest::Relative;
+    CompositeRule composite = CompositeRule::Counted;
     float foregroundMagnification = 1.0f; ///< of w_f where the target is deeper; 1: off
     float backgroundMagnification = 2.0f; ///< of the revealed layer inside the mask; 1: off
     float jitter = 1.0f;                  ///< of the taps; 0: banding, no noise

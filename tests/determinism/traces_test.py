@@ -87,7 +87,7 @@ CHANGES = (
     ("gather", "foregroundMagnification=30", "gather"),
     ("hybrid", "neighbourhoodTiles=1", "neighbour max"),
     ("hybrid", "edgeThreshold=0.999", "edge"),
-    ("hybrid", "backgroundMagnification=50", "gather and composite"),
+    ("hybrid", "jitter=0", "count without mask"),
 )
 
 

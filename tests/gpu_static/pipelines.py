@@ -19,7 +19,8 @@ SAMPLES = {"accumulate": "2", "truth": "1"}
 # runner and his window in `gallery`), and alpha masks, glass and particles (drift.gltf).
 VARIANTS = (
     ("vase", "--method", "hybrid", "--rays", "pipeline", "--response", "triangle"),
-    ("vase", "--method", "hybrid", "--aov", "all", "--set", "rayShare=0.25"),
+    ("vase", "--method", "hybrid", "--aov", "all", "--set", "rayShare=0.25", "--set",
+     "composite=weights"),
     ("vase", "--method", "resolved", "--aov", "all", "--set", "secondRaster=true"),
     ("courtyard", "--time", "0.5", "--method", "resolved", "--shadows", "blurred", "--aa", "taa",
      "--bloom", "0.1"),
@@ -36,7 +37,8 @@ VARIANTS = (
 )
 # What takes the time of a frame. Each of these is pinned, in all its variants.
 HOT = (
-    "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "deform",
+    "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "count",
+    "count with revealed", "count without mask", "deform",
     "draw bright points", "edge", "filter lens", "find block samples", "find bright points",
     "find bright regions", "find parts",
     "find parts, last frame", "find parts, second raster", "fit planes", "gather", "gather and composite",

@@ -28,6 +28,7 @@ namespace shutter {
 namespace {
 
 using math::dvec3;
+using motion_blur::CompositeRule;
 using motion_blur::UntilReady;
 using test::AdaptiveLaw;
 using test::Frames;
@@ -208,7 +209,9 @@ TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
         else
             EXPECT_GT(image::computePsnr(frame.color, full.color), share >= 0.25f ? 40.0 : 25.0);
         if (share == 0.0f) {
-            EXPECT_TRUE(test::sameBits(frame.color, draw(scene, {}, "gather").color));
+            const auto weights =
+                draw(scene, {.composite = CompositeRule::Weights, .rayShare = 0.0f});
+            EXPECT_TRUE(test::sameBits(weights.color, draw(scene, {}, "gather").color));
         }
     }
 }

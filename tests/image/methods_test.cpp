@@ -200,7 +200,9 @@ std::vector<MotionBlurSettings> listBases(const Method& method) {
     steps.uniformMotionPx = 4.0f;
     MotionBlurSettings luminance = plain;
     luminance.objectTest = motion_blur::ObjectTest::Luminance;
-    return {plain, steps, luminance};
+    MotionBlurSettings weights = plain;
+    weights.composite = motion_blur::CompositeRule::Weights;
+    return {plain, steps, luminance, weights};
 }
 
 /// The settings with other values of the row.

@@ -117,7 +117,7 @@ TEST_F(HardCases, AHitchUnderACappedShutterIsAFrameAtTheReferenceRate) {
 
 /// Change of light, percent of the sharp picture's. A truth conserves light to 0.5 %. No published
 /// filter does: a gather's weights do not sum to a pixel's coverage, so the filters are held to
-/// values measured here.
+/// values measured here. Counted taps do, in `hybrid`.
 struct Light {
     std::string_view method;
     double expected;
@@ -130,7 +130,7 @@ constexpr Light kLight[] = {
     {"guertin2014", 37.9, 2.0},
     {"jimenez2014", 0.0, 0.5},
     {"gather", 22.7, 2.0},
-    {"hybrid", 7.5, 2.0},
+    {"hybrid", 0.0, 0.5},
     {"resolved", 0.2, 0.5},
     {"denoised", -2.1, 1.0},
     {"accumulate", 0.0, 0.5},

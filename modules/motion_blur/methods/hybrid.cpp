@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tan, Cui, Bhojan, "Hybrid MBlur": inside a ray mask at moving silhouettes, rays past the
-// foreground reveal a second layer; both layers are gathered and composited.
+// foreground reveal a second layer. Each tap then takes the surface that the pixel saw at its
+// instant, or, as in the paper, both layers are gathered and composited by weights.
 #include "engine/core/check.h"
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
@@ -50,7 +51,7 @@ class HybridPasses : public MethodPasses {
 MotionBlurOutputs HybridPasses::add(
     graph::Graph& graph,
     const MotionBlurInputs& inputs,
-    const MotionBlurSettings& /*settings*/,
+    const MotionBlurSettings& settings,
     const PassParams& resolved,
     SharedPasses& shared
 ) {
@@ -91,18 +92,16 @@ MotionBlurOutputs HybridPasses::add(
                       : mReveal.add(graph, revealInputs, params);
     const RevealedLayerInputs layerInputs{
         inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
-    const RevealedLayer layer{
-        reveal.color,
-        reveal.motionDepth,
-        mLayer.addDominant(graph, layerInputs, params),
-        mask.mask};
+    RevealedLayer layer{reveal.color, reveal.motionDepth, reveal.entityId, mask.mask, {}};
+    if (settings.composite == CompositeRule::Weights)
+        layer.dominant = mLayer.addDominant(graph, layerInputs, params);
     const RevealedViews views = mLayer.addViews(graph, layerInputs, params);
     const graph::ImageHandle target = shared.stillPixels.begin(
         graph, inputs.color, inputs.target, shared.stillPixelsBy, mask.blocks.lists, params
     );
     const graph::ImageHandle filtered = mGather.add(
         graph,
-        {inputs.color, inputs.motionDepth, tiles.dominant, layer},
+        {inputs.color, inputs.motionDepth, tiles.dominant, inputs.entityId, layer},
         mask.blocks,
         target,
         params
@@ -158,7 +157,7 @@ void addHybridLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
 
 const Method kHybrid = {
     .name = "hybrid",
-    .description = "gather with the background that rays reveal (the paper)",
+    .description = "counts what each pixel saw, with the background that rays reveal (the paper)",
     .publication = "Tan, Cui, Bhojan, Hybrid MBlur",
     .standIn = "gather",
     .rays = RayNeed::Any,
@@ -176,6 +175,7 @@ const Method kHybrid = {
          "foregroundMagnification",
          "uniformMotionPx",
          "halfResolutionPx",
+         "composite",
          "backgroundMagnification",
          "edgeThreshold",
          "maskTest",

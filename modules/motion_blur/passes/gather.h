@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gather of one or two layers and their composite (Tan et al., "Post-process" and appendix),
-// with a separate kernel for each class of blocks.
+// The gather of one or two layers, and their composite by weights (Tan et al., "Post-process" and
+// appendix) or by counts, with a separate kernel for each class of blocks.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -17,15 +17,17 @@ namespace shutter::motion_blur {
 struct RevealedLayer {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
-    graph::ImageHandle dominant;
+    graph::ImageHandle entityId;
     graph::ImageHandle mask;
+    graph::ImageHandle dominant; ///< invalid: taps are counted, which needs none
 };
 
 struct GatherInputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
     graph::ImageHandle dominant;
-    std::optional<RevealedLayer> reveal; ///< none: the raster layer alone
+    graph::ImageHandle entityId{};         ///< invalid without `reveal`
+    std::optional<RevealedLayer> reveal{}; ///< none: the raster layer alone
 };
 
 class Gather {
@@ -42,10 +44,22 @@ class Gather {
         const PassParams& params) const;
 
   private:
+    /// Counts what the pixels of mixed and masked blocks saw (shaders/motion_blur/count_taps.glsl).
+    [[nodiscard]] graph::ImageHandle addCounts(
+        graph::Graph& graph,
+        const GatherInputs& inputs,
+        const SortedBlocks& blocks,
+        graph::ImageHandle target,
+        const PassParams& params
+    ) const;
+
     BlockFilter mUniform;
     BlockFilter mOneLayer;
     BlockFilter mOneLayerOfCandidates;
     BlockFilter mTwoLayers;
+    BlockFilter mCounted;
+    BlockFilter mCountedOfCandidates;
+    BlockFilter mCountedInMask;
 };
 
 } // namespace shutter::motion_blur

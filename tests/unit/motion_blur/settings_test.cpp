@@ -179,10 +179,10 @@ TEST(MotionBlurSettings, EachSettingOfAMethodReachesItsShaders) {
         MotionBlurSettings settings;
         settings.method = method;
         for (const std::string_view name : method->settings) {
-            // The number of passes, how many layers there are, the tables, and a share of the
+            // Which passes there are and how many, how many layers, the tables, and a share of the
             // picture's size.
-            if (name == "filterLevels" || name == "history" || name == "instantNoise" ||
-                name == "raysPerPixel" || name == "secondRaster")
+            if (name == "composite" || name == "filterLevels" || name == "history" ||
+                name == "instantNoise" || name == "raysPerPixel" || name == "secondRaster")
                 continue;
             const auto* row = core::findRow(listSettingRows(), name);
             ASSERT_TRUE(row) << method->name << " " << name;
