@@ -93,9 +93,9 @@ class BirthPlace {
     }
 
   private:
-    /// Of the entity, m/s, as a difference over kStep. A jump nearer than that shortens the step;
-    /// right after a jump, the step ends before it. Recorded motion ends at the birth, so the step
-    /// lies before it.
+    /// The entity's velocity, m/s: a difference over kStep. A jump nearer than that shortens the
+    /// step; right after a jump, the step ends before it. Recorded motion ends at the birth, so the
+    /// step lies before it.
     [[nodiscard]] dvec3 velocityAt(double seconds) const {
         constexpr double kStep = 1.0e-3;
         constexpr double kLongestJump = 0.25 * kStep;

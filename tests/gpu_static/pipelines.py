@@ -19,6 +19,7 @@ SAMPLES = {"accumulate": "2", "truth": "1"}
 # runner and his window in `gallery`), and alpha masks, glass and particles (drift.gltf).
 VARIANTS = (
     ("vase", "--method", "hybrid", "--rays", "pipeline", "--response", "triangle"),
+    ("vase", "--method", "hybrid", "--set", "composite=weights", "--response", "triangle"),
     ("vase", "--method", "hybrid", "--aov", "all", "--set", "rayShare=0.25", "--set",
      "composite=weights"),
     ("vase", "--method", "resolved", "--aov", "all", "--set", "secondRaster=true"),

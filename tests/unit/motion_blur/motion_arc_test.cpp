@@ -21,7 +21,7 @@ struct Turn {
     double aspect = 1.0;  ///< height of the ellipses to their width
     double growth = 1.0;  ///< over the exposure
 
-    /// Of a place relative to the point, by a share of the exposure.
+    /// What a share of the exposure does to places, relative to the point.
     [[nodiscard]] dmat2 by(double share) const {
         const double angle = degrees * std::numbers::pi / 180.0 * share;
         const dmat2 turned(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
