@@ -8,16 +8,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/hybrid_shared.h"
 #include "motion_blur/motion_blur_shared.h"
-#include "motion_blur/mask_bits.glsl"
-#include "motion_blur/ray_share.glsl"
+#include "motion_blur/weights.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 4
 #define SHUTTER_BLOCK_LIST_ACCESS // the flags are written
 #include "motion_blur/block_list.glsl"
-
-/// 1: a group appends its pixels together, with two barriers and a few global atomics per block; 0:
-/// each masked pixel appends itself, with a few atomics. On a CPU device, barriers cost more than
-/// atomics, on a GPU less.
-layout(constant_id = 1) const uint kListTogether = 0u;
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -97,16 +91,7 @@ bool isMasked(ivec2 pixel) {
            meetsEdge(centre, motion * (params.rasterTime - 1.0f), target.z);
 }
 
-uint countBlocks() {
-    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    return blocks.x * blocks.y;
-}
-
-/// Where a block's flag lies behind the list of candidates.
-uint flagOf(uvec2 block) {
-    uint row = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
-    return countBlocks() + block.y * row + block.x;
-}
+#include "motion_blur/masked_blocks.glsl"
 
 void listTile(uvec2 tile) {
     uint tiles = params.tileCount.x * params.tileCount.y;
@@ -121,14 +106,10 @@ void listTile(uvec2 tile) {
     if (index % (kTilesPerGroup * kListRow) == 0u) atomicAdd(uTileArguments[1].groupsY, 1u);
 }
 
-/// Lists a block with masked pixels, and every tile that it lies in: one without masked pixels is
-/// worked out like the others and comes out as the raster's. Once a block.
-void listBlock(uvec2 block) {
-    uint blockCount = countBlocks();
-    uint index = atomicAdd(uSorted.header.maskedCount, 1u);
-    uSorted.entries[kMaskedList * blockCount + index] = block.x | block.y << 16;
-    if (index < kListRow) atomicMax(uLists[kMaskedList].groupsX, index + 1u);
-    if (index % kListRow == 0u) atomicAdd(uLists[kMaskedList].groupsY, 1u);
+/// Lists the block and every tile that it lies in: one without masked pixels is worked out like the
+/// others and comes out as the raster's.
+void markBlock(uvec2 block) {
+    if (!listBlock(block)) return;
     vec2 first = vec2(block * kGroupSize) + 0.5f;
     vec2 last = min(first + float(kGroupSize - 1u), vec2(params.sizePx) - 0.5f);
     uvec2 firstTile = uvec2(floor(first / float(params.tileSizePx)));
@@ -137,81 +118,11 @@ void listBlock(uvec2 block) {
         for (uint x = firstTile.x; x <= lastTile.x; ++x) listTile(uvec2(x, y));
 }
 
-/// Place in the list for `count` pixels, for which the reveal gets groups.
-uint takePlaces(uint count) {
-    uint first = atomicAdd(uMasked.header.listedPixels, count);
-    uint group = (first + count - 1u) / kRevealThreads;
-    // The groups of a full row are as many as they can be: most pixels leave the word alone.
-    if (first / kRevealThreads < kListRow)
-        atomicMax(uReveal.groupsX, min(group + 1u, kListRow));
-    uint perRow = kRevealThreads * kListRow;
-    uint rows = countRows(first + count, perRow) - countRows(first, perRow);
-    if (rows > 0u) atomicAdd(uReveal.groupsY, rows);
-    return first;
-}
-
-void storeEntry(uint index, ivec2 pixel, bool quads) {
-    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16 | (quads ? kQuadFlag : 0u);
-}
-
-/// Whether no pixel of its quad before it is masked. Those are worked out once more, which costs less
-/// than threads that wait for each other.
-bool leadsQuad(ivec2 pixel) {
-    ivec2 first = pixel & ~1;
-    int own = (pixel.x & 1) + (pixel.y & 1) * 2;
-    for (int i = 0; i < own; ++i)
-        if (isMasked(first + ivec2(i & 1, i >> 1))) return false;
-    return true;
-}
-
-/// In a quad the first masked pixel traces for all.
-void listPixel(ivec2 pixel, bool quads) {
-    uvec2 block = uvec2(pixel) / kGroupSize;
-    if (atomicExchange(uBlocks.entries[flagOf(block)], 1u) == 0u) listBlock(block);
-    if (quads && !leadsQuad(pixel)) {
-        atomicAdd(uMasked.header.sharingPixels, 1u);
-        return;
-    }
-    storeEntry(takePlaces(1u), pixel, quads);
-}
-
-shared uint sMasked[2]; // mask_bits.glsl
-shared uint sFirst;     // place of the group's first pixel
-
-/// For all threads of a group, masked or not; they come here together.
-void listTogether(ivec2 pixel, bool masked, bool quads) {
-    uint thread = gl_LocalInvocationIndex;
-    if (thread < 2u) sMasked[thread] = 0u;
-    barrier();
-    if (masked) atomicOr(sMasked[thread / 32u], 1u << (thread % 32u));
-    barrier();
-    uvec2 maskedBits = uvec2(sMasked[0], sMasked[1]);
-    uint maskedCount = countBits(maskedBits);
-    if (maskedCount == 0u) return;
-    uvec2 listed = listedBits(maskedBits, quads);
-    uint listedCount = countBits(listed);
-    if (thread == 0u) {
-        uvec2 block = uvec2(pixel) / kGroupSize;
-        uBlocks.entries[flagOf(block)] = 1u;
-        listBlock(block);
-        sFirst = takePlaces(listedCount);
-        if (maskedCount > listedCount)
-            atomicAdd(uMasked.header.sharingPixels, maskedCount - listedCount);
-    }
-    barrier();
-    if (hasBit(listed, thread)) storeEntry(sFirst + countBitsBefore(listed, thread), pixel, quads);
-}
+#include "motion_blur/mask_list.glsl"
 
 void main() {
     ivec2 pixel;
     bool isInside = findPixel(params.sizePx, pixel);
     if (kListTogether == 0u && !isInside) return;
-    uint tracing = chooseTracing(vec2(uvec2(pixel) / kGroupSize), method.rayShare);
-    bool quads = tracing == kTraceQuads;
-    bool masked = isInside && tracing != kTraceNothing && isMasked(pixel);
-    if (masked) imageStore(uMask, pixel, vec4(1.0f));
-    if (kListTogether != 0u)
-        listTogether(pixel, masked, quads);
-    else if (masked)
-        listPixel(pixel, quads);
+    listMasked(pixel, isInside, method.rayShare);
 }

@@ -29,26 +29,25 @@ SHUTTER_INLINE vec2 meanOfTurn(vec2 a, float q) {
     return sum;
 }
 
-struct Arc {
-    vec2 motion;       // over the exposure, pixels
-    vec2 turnedMotion; // K motion
-    vec2 turn;         // over the exposure, as a logarithm; 0: the path is straight
-    vec2 perChord;     // turn / J
-    float q;
-};
+SHUTTER_CONST int kArcPowers = 6;
 
-SHUTTER_INLINE bool isStraight(Arc arc) { return arc.turn.x == 0.0f && arc.turn.y == 0.0f; }
+/// A path, as a polynomial.
+struct Arc {
+    vec2 power[kArcPowers]; // pixels per u, u^2, ...
+};
 
 /// Where the raster has what is at the pixel at u (taps.glsl), relative to the pixel.
 SHUTTER_INLINE vec2 placeOnArc(Arc arc, float u) {
-    if (isStraight(arc)) return arc.motion * u;
-    vec2 share = multiplyTurns(meanOfTurn(arc.turn * u, arc.q), arc.perChord, arc.q) * u;
-    return arc.motion * share.x + arc.turnedMotion * share.y;
+    vec2 sum = arc.power[kArcPowers - 1];
+    for (int i = kArcPowers - 2; i >= 0; --i) sum = arc.power[i] + u * sum;
+    return u * sum;
 }
 
 /// \param dx, dy change of the motion from one pixel to the next in a row, in a column
 SHUTTER_INLINE Arc makeArc(vec2 motion, vec2 dx, vec2 dy, float rasterTime) {
-    Arc arc = {motion, vec2(0.0f), vec2(0.0f), vec2(1.0f, 0.0f), 0.0f};
+    Arc arc;
+    arc.power[0] = motion;
+    for (int i = 1; i < kArcPowers; ++i) arc.power[i] = vec2(0.0f);
     float t = 0.5f * (dx.x + dy.y);
     vec3 k = vec3(0.5f * (dx.x - dy.y), dx.y, dy.x); // K = (x z; y -x)
     float q = k.x * k.x + k.y * k.z;
@@ -74,10 +73,13 @@ SHUTTER_INLINE Arc makeArc(vec2 motion, vec2 dx, vec2 dy, float rasterTime) {
                      before * (one - multiplyTurns(turn, earlier, q));
         turn -= divideTurns(error, slope, q);
     }
-    arc.turnedMotion = vec2(k.x * motion.x + k.z * motion.y, k.y * motion.x - k.x * motion.y);
-    arc.turn = turn;
-    arc.perChord = divideTurns(one, ratio, q);
-    arc.q = q;
+    // (e^(turn u) - 1) / turn, by its series, of the motion over a chord.
+    vec2 turnedMotion = vec2(k.x * motion.x + k.z * motion.y, k.y * motion.x - k.x * motion.y);
+    vec2 term = divideTurns(one, ratio, q);
+    for (int i = 0; i < kArcPowers; ++i) {
+        arc.power[i] = motion * term.x + turnedMotion * term.y;
+        term = multiplyTurns(term, turn, q) / float(i + 2);
+    }
     return arc;
 }
 

@@ -546,15 +546,15 @@ Listed listMask(gpu::Device& device, MaskListing listing, float rayShare) {
          sorter.add(rig.graph, tiles, params, true)},
         params
     );
-    const size_t list = copies.add(rig.graph, outputs.list);
+    const size_t list = copies.add(rig.graph, outputs.masked.list);
     const size_t lists = copies.add(rig.graph, outputs.blocks.lists.blocks);
     const size_t candidates = copies.add(rig.graph, outputs.blocks.candidates.blocks);
     const size_t tileList = copies.add(rig.graph, outputs.tiles);
     const size_t arguments[] = {
-        copies.add(rig.graph, outputs.arguments),
+        copies.add(rig.graph, outputs.masked.arguments),
         copies.add(rig.graph, outputs.blocks.lists.arguments),
         copies.add(rig.graph, outputs.tileArguments)};
-    const size_t mask = rig.want(outputs.mask);
+    const size_t mask = rig.want(outputs.masked.mask);
     test::run(rig);
 
     constexpr size_t kHead = 4; // words of each header

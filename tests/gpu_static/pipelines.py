@@ -39,12 +39,13 @@ VARIANTS = (
 # What takes the time of a frame. Each of these is pinned, in all its variants.
 HOT = (
     "G-buffer", "blended layer", "bloom down", "bloom up", "composite blended", "count",
-    "count with revealed", "count without mask", "deform",
+    "count alone", "count revealed", "deform",
     "draw bright points", "edge", "filter lens", "find block samples", "find bright points",
-    "find bright regions", "find parts",
+    "find bright regions", "find jumps", "find parts",
     "find parts, last frame", "find parts, second raster", "fit planes", "gather", "gather and composite",
     "gather uniform", "guertin2014", "instant surfaces", "jimenez2014", "list candidates",
-    "list candidates, last frame", "list candidates, second raster", "list crowds", "mcguire2012",
+    "list candidates, last frame", "list candidates, second raster", "list crowds", "list missing",
+    "mcguire2012",
     "pack surface", "particle composite", "particles", "ray mask", "ray reveal", "resolve",
     "resolve uniform", "rosado2007", "shape ways", "sort candidates", "split edges", "split samples",
     "stochastic rays", "taa", "tile max", "trace samples",

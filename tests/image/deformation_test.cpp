@@ -389,7 +389,7 @@ TEST_F(DeformLaw, TimeSpentOnDeformedMeshesIsTheScenesAndNotTheBlurs) {
         {"build TLAS", Owner::Rays},
         {"G-buffer", Owner::Scene},
         {"ray reveal", Owner::Blur},
-        {"count with revealed", Owner::Blur},
+        {"count revealed", Owner::Blur},
         {"readback color", Owner::Display}};
     for (const auto& [name, owner] : expected) {
         ASSERT_TRUE(owners.contains(name)) << name;

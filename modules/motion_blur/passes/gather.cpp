@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/passes/gather.h"
 
-#include "spirv/motion_blur/count_masked.comp.h"
-#include "spirv/motion_blur/count_mixed.comp.h"
 #include "spirv/motion_blur/reconstruct.comp.h"
 #include "spirv/motion_blur/reconstruct_masked.comp.h"
 #include "spirv/motion_blur/reconstruct_uniform.comp.h"
@@ -44,22 +42,20 @@ Gather::Gather(gpu::Device& device, TapVariants taps)
           shader::kMaskedList,
           describe("gather and composite", motion_blur_reconstruct_masked_comp, 7),
           taps
-      ),
-      mCounted(
-          device, shader::kMixedList, describe("count", motion_blur_count_mixed_comp, 4, 0), taps
-      ),
-      mCountedOfCandidates(
-          device,
-          shader::kCandidateList,
-          describe("count without mask", motion_blur_count_mixed_comp, 4, 1),
-          taps
-      ),
-      mCountedInMask(
-          device,
-          shader::kMaskedList,
-          describe("count with revealed", motion_blur_count_masked_comp, 8),
-          taps
       ) {}
+
+graph::ImageHandle Gather::addUniform(
+    graph::Graph& graph,
+    const GatherInputs& inputs,
+    const SortedBlocks& blocks,
+    graph::ImageHandle target,
+    const PassParams& params
+) const {
+    if (!(params.uniformMotionPx > 0.0f))
+        return target;
+    const std::array uniform{inputs.color, inputs.dominant};
+    return mUniform.add(graph, uniform, blocks.lists, target, params);
+}
 
 graph::ImageHandle Gather::add(
     graph::Graph& graph,
@@ -68,12 +64,7 @@ graph::ImageHandle Gather::add(
     graph::ImageHandle target,
     const PassParams& params
 ) const {
-    if (params.uniformMotionPx > 0.0f) {
-        const std::array uniform{inputs.color, inputs.dominant};
-        target = mUniform.add(graph, uniform, blocks.lists, target, params);
-    }
-    if (inputs.reveal && !inputs.reveal->dominant.isValid())
-        return addCounts(graph, inputs, blocks, target, params);
+    target = addUniform(graph, inputs, blocks, target, params);
     const std::array raster{inputs.color, inputs.motionDepth, inputs.dominant};
     target = mOneLayer.add(graph, raster, blocks.lists, target, params);
     if (!inputs.reveal)
@@ -89,29 +80,6 @@ graph::ImageHandle Gather::add(
         second.dominant,
         second.mask};
     return mTwoLayers.add(graph, both, blocks.lists, target, params);
-}
-
-graph::ImageHandle Gather::addCounts(
-    graph::Graph& graph,
-    const GatherInputs& inputs,
-    const SortedBlocks& blocks,
-    graph::ImageHandle target,
-    const PassParams& params
-) const {
-    const std::array raster{inputs.color, inputs.motionDepth, inputs.dominant, inputs.entityId};
-    target = mCounted.add(graph, raster, blocks.lists, target, params);
-    target = mCountedOfCandidates.add(graph, raster, blocks.candidates, target, params);
-    const RevealedLayer& second = *inputs.reveal;
-    const std::array both{
-        inputs.color,
-        inputs.motionDepth,
-        inputs.dominant,
-        inputs.entityId,
-        second.color,
-        second.motionDepth,
-        second.entityId,
-        second.mask};
-    return mCountedInMask.add(graph, both, blocks.lists, target, params);
 }
 
 } // namespace shutter::motion_blur

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gather of one or two layers, and their composite by weights (Tan et al., "Post-process" and
-// appendix) or by counts, with a separate kernel for each class of blocks.
+// The gather of one or two layers and their composite by weights (Tan et al., "Post-process" and
+// appendix), with a separate kernel for each class of blocks.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -17,16 +17,14 @@ namespace shutter::motion_blur {
 struct RevealedLayer {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
-    graph::ImageHandle entityId;
+    graph::ImageHandle dominant;
     graph::ImageHandle mask;
-    graph::ImageHandle dominant; ///< invalid: taps are counted, which needs none
 };
 
 struct GatherInputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
     graph::ImageHandle dominant;
-    graph::ImageHandle entityId{};         ///< invalid without `reveal`
     std::optional<RevealedLayer> reveal{}; ///< none: the raster layer alone
 };
 
@@ -34,6 +32,15 @@ class Gather {
   public:
     explicit Gather(gpu::Device& device);
     Gather(gpu::Device& device, TapVariants taps);
+
+    /// Blocks of uniform motion alone.
+    [[nodiscard]] graph::ImageHandle addUniform(
+        graph::Graph& graph,
+        const GatherInputs& inputs,
+        const SortedBlocks& blocks,
+        graph::ImageHandle target,
+        const PassParams& params
+    ) const;
 
     /// \return target with all listed blocks written
     [[nodiscard]] graph::ImageHandle
@@ -44,22 +51,10 @@ class Gather {
         const PassParams& params) const;
 
   private:
-    /// Counts what the pixels of mixed and masked blocks saw (shaders/motion_blur/count_taps.glsl).
-    [[nodiscard]] graph::ImageHandle addCounts(
-        graph::Graph& graph,
-        const GatherInputs& inputs,
-        const SortedBlocks& blocks,
-        graph::ImageHandle target,
-        const PassParams& params
-    ) const;
-
     BlockFilter mUniform;
     BlockFilter mOneLayer;
     BlockFilter mOneLayerOfCandidates;
     BlockFilter mTwoLayers;
-    BlockFilter mCounted;
-    BlockFilter mCountedOfCandidates;
-    BlockFilter mCountedInMask;
 };
 
 } // namespace shutter::motion_blur

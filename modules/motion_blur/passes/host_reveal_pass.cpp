@@ -23,7 +23,7 @@ RayRevealOutputs addHostReveal(
 
     const RayRevealOutputs outputs = createRevealed(graph, inputs);
     const graph::BufferHandle launch = own.byRayPipeline && device.info().tracesIndirect
-                                           ? addLaunchSize(graph, inputs.list)
+                                           ? addLaunchSize(graph, inputs.masked.list)
                                            : graph::BufferHandle{};
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
     const VkDeviceSize listBytes =
@@ -38,8 +38,8 @@ RayRevealOutputs addHostReveal(
                 data.out.color = builder.write(outputs.color, Access::StorageWrite);
                 data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
                 data.out.entityId = builder.write(outputs.entityId, Access::StorageWrite);
-                data.list = builder.read(inputs.list, Access::StorageRead);
-                data.groups = builder.read(inputs.arguments, Access::IndirectRead);
+                data.list = builder.read(inputs.masked.list, Access::StorageRead);
+                data.groups = builder.read(inputs.masked.arguments, Access::IndirectRead);
                 if (launch.isValid())
                     data.launch = builder.read(launch, Access::IndirectRead);
             },

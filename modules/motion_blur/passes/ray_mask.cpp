@@ -52,35 +52,25 @@ gpu::ComputePipelineDesc describeMask(MaskListing listing) {
     return desc;
 }
 
-graph::BufferHandle createArguments(graph::Graph& graph, const char* name, uint32_t count) {
-    return graph.createBuffer(name, {sizeof(shader::DispatchArguments) * count, kArgumentsUsage});
-}
-
 } // namespace
 
 ClearedMask RayMask::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
     const glm::uvec2 size = params.sizePx;
     const glm::uvec2 blocks = countBlocks(params);
-    const VkDeviceSize pixelCount = VkDeviceSize(size.x) * size.y;
     const VkDeviceSize tileCount = VkDeviceSize(params.tileCount.x) * params.tileCount.y;
     const ClearedMask created{
         graph.createImage("edges", {size.x, size.y, VK_FORMAT_R8_UNORM}),
         graph.createImage("edge blocks", {blocks.x, blocks.y, VK_FORMAT_R8_UNORM}),
-        graph.createImage("ray mask", {size.x, size.y, VK_FORMAT_R8_UNORM}),
-        graph.createBuffer(
-            "masked pixels",
-            {sizeof(shader::MaskHeader) + pixelCount * sizeof(uint32_t), kListUsage}
-        ),
-        createArguments(graph, "reveal arguments", 1),
+        MaskedPixels::create(graph, params, clears),
         graph.createBuffer(
             "masked tiles",
             {sizeof(shader::TileHeader) + 2 * tileCount * sizeof(uint32_t), kListUsage}
         ),
-        createArguments(graph, "masked tile arguments", 2)};
-    for (const graph::ImageHandle image : {created.edges, created.edgeBlocks, created.mask})
-        clears.add(image);
-    clears.addHead(created.list, sizeof(shader::MaskHeader));
-    clears.addArguments(created.arguments, 1);
+        graph.createBuffer(
+            "masked tile arguments", {2 * sizeof(shader::DispatchArguments), kArgumentsUsage}
+        )};
+    clears.add(created.edges);
+    clears.add(created.edgeBlocks);
     clears.add(created.tiles, 0);
     clears.addArguments(created.tileArguments, 2);
     return created;
@@ -90,15 +80,12 @@ ClearedMask RayMask::getCleared(const ClearedMask& created, const Clears& clears
     return {
         clears.get(created.edges),
         clears.get(created.edgeBlocks),
-        clears.get(created.mask),
-        clears.get(created.list),
-        clears.get(created.arguments),
+        MaskedPixels::getCleared(created.masked, clears),
         clears.get(created.tiles),
         clears.get(created.tileArguments)};
 }
 
-RayMask::RayMask(gpu::Device& device)
-    : RayMask(device, isSoftware(device) ? MaskListing::PixelByPixel : MaskListing::BlockByBlock) {}
+RayMask::RayMask(gpu::Device& device) : RayMask(device, chooseMaskListing(device)) {}
 
 RayMask::RayMask(gpu::Device& device, MaskListing listing)
     : mSampler(device.nearestSampler()), mEdge(device, describeEdge()),
@@ -214,9 +201,9 @@ RayMaskOutputs RayMask::add(
             data.edges = edges;
             builder.read(edges.edges, Access::SampledCompute);
             builder.read(edges.blocks, Access::SampledCompute);
-            data.out.mask = builder.write(empty.mask, Access::StorageWrite);
-            data.out.list = builder.write(empty.list, Access::StorageWrite);
-            data.out.arguments = builder.write(empty.arguments, Access::StorageWrite);
+            data.out.masked.mask = builder.write(empty.masked.mask, Access::StorageWrite);
+            data.out.masked.list = builder.write(empty.masked.list, Access::StorageWrite);
+            data.out.masked.arguments = builder.write(empty.masked.arguments, Access::StorageWrite);
             const SortedBlocks& blocks = inputs.blocks;
             data.out.blocks.lists = {
                 builder.write(blocks.lists.blocks, Access::StorageWrite),
@@ -233,10 +220,10 @@ RayMaskOutputs RayMask::add(
             bindings.sampled(resources.view(data.motionDepth), mSampler)
                 .sampled(resources.view(data.edges.edges), mSampler)
                 .sampled(resources.view(data.edges.blocks), mSampler)
-                .storage(resources.image(data.out.mask))
+                .storage(resources.image(data.out.masked.mask))
                 .buffer(resources.buffer(data.out.blocks.candidates.blocks))
-                .buffer(resources.buffer(data.out.list))
-                .buffer(resources.buffer(data.out.arguments))
+                .buffer(resources.buffer(data.out.masked.list))
+                .buffer(resources.buffer(data.out.masked.arguments))
                 .buffer(resources.buffer(data.out.blocks.lists.blocks))
                 .buffer(resources.buffer(data.out.blocks.lists.arguments))
                 .buffer(resources.buffer(data.out.tiles))

@@ -8,6 +8,7 @@
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/clears.h"
+#include "modules/motion_blur/passes/masked_pixels.h"
 
 #include <cstdint>
 
@@ -22,12 +23,10 @@ struct RayMaskInputs {
 };
 
 struct RayMaskOutputs {
-    graph::ImageHandle edge;       ///< RGBA8: candidate, measure, edge; drawn only if it is read
-    graph::ImageHandle mask;       ///< R8
-    graph::BufferHandle list;      ///< MaskHeader, then the masked pixels
-    graph::BufferHandle arguments; ///< DispatchArguments of the reveal
-    SortedBlocks blocks;           ///< with kMaskedList, and candidates flagged
-    graph::BufferHandle tiles;     ///< TileHeader, then the tiles with masked pixels
+    graph::ImageHandle edge; ///< RGBA8: candidate, measure, edge; drawn only if it is read
+    MaskedPixels masked;
+    SortedBlocks blocks;               ///< with kMaskedList, and candidates flagged
+    graph::BufferHandle tiles;         ///< TileHeader, then the tiles with masked pixels
     graph::BufferHandle tileArguments; ///< DispatchArguments: a group a tile, 64 tiles a group
 };
 
@@ -35,16 +34,10 @@ struct RayMaskOutputs {
 struct ClearedMask {
     graph::ImageHandle edges;
     graph::ImageHandle edgeBlocks;
-    graph::ImageHandle mask;
-    graph::BufferHandle list;
-    graph::BufferHandle arguments;
+    MaskedPixels masked;
     graph::BufferHandle tiles;
     graph::BufferHandle tileArguments;
 };
-
-/// How masked pixels come into their list: one by one, or all of a block at once, which takes fewer
-/// atomics and two barriers. The lists hold the same.
-enum class MaskListing : uint8_t { PixelByPixel, BlockByBlock };
 
 class RayMask {
   public:
@@ -69,14 +62,16 @@ class RayMask {
     RayMaskOutputs
     add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
 
+    /// The first two tests, to look at: drawn only if it is read.
+    graph::ImageHandle
+    addEdgeView(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
+
   private:
     struct Edges {
         graph::ImageHandle edges;  ///< R8
         graph::ImageHandle blocks; ///< R8, one texel a block: an edge lies within a block's length
     };
 
-    graph::ImageHandle
-    addEdgeView(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
     Edges addEdges(
         graph::Graph& graph,
         const RayMaskInputs& inputs,

@@ -171,7 +171,7 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
     // Where the device reads no launch's size from memory, there is a launch for every pixel.
     const graph::BufferHandle launchSize = byCompute || !mDevice.info().tracesIndirect
                                                ? graph::BufferHandle{}
-                                               : addLaunchSize(graph, inputs.list);
+                                               : addLaunchSize(graph, inputs.masked.list);
     const gpu::Pipeline& pipeline = findPipeline(inputs.rays);
 
     struct RevealData {
@@ -198,13 +198,13 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
             builder.read(inputs.color, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
             builder.read(inputs.entityId, Access::SampledCompute);
-            builder.read(inputs.mask, Access::SampledCompute);
+            builder.read(inputs.masked.mask, Access::SampledCompute);
             data.out.color = builder.write(outputs.color, Access::StorageWrite);
             data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
             data.out.entityId = builder.write(outputs.entityId, Access::StorageWrite);
-            data.list = builder.write(inputs.list, Access::StorageWrite);
+            data.list = builder.write(inputs.masked.list, Access::StorageWrite);
             if (byCompute)
-                builder.read(inputs.arguments, Access::IndirectRead);
+                builder.read(inputs.masked.arguments, Access::IndirectRead);
             else if (launchSize.isValid())
                 builder.read(launchSize, Access::IndirectRead);
         },
@@ -216,7 +216,7 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
             bindings.sampled(resources.view(data.in.color), mSampler)
                 .sampled(resources.view(data.in.motionDepth), mSampler)
                 .sampled(resources.view(data.in.entityId), mSampler)
-                .sampled(resources.view(data.in.mask), mSampler)
+                .sampled(resources.view(data.in.masked.mask), mSampler)
                 .storage(resources.image(data.out.color))
                 .storage(resources.image(data.out.motionDepth))
                 .storage(resources.image(data.out.entityId))
@@ -225,7 +225,9 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
                 bindings.accelerationStructure(data.in.rays.tlas);
             context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.textures);
             if (byCompute)
-                vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
+                vkCmdDispatchIndirect(
+                    context.commands, resources.buffer(data.in.masked.arguments), 0
+                );
             else
                 launch(context, data.in, params, launchSize);
         }

@@ -9,6 +9,7 @@
 #include "engine/graph/graph.h"
 #include "engine/graph/ray_scene.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/masked_pixels.h"
 
 #include <array>
 #include <optional>
@@ -20,12 +21,10 @@ struct RayRevealInputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
     graph::ImageHandle entityId;
-    graph::ImageHandle mask;       ///< of RayMask
-    graph::BufferHandle list;      ///< of RayMask
-    graph::BufferHandle arguments; ///< of RayMask
-    graph::RayScene rays;          ///< no TLAS: nothing but sky is found
-    uint32_t slot = 0;             ///< of the frames in flight, below kMaxSlots
-    bool wantsCounters = true;     ///< count() is called for the frame
+    MaskedPixels masked;
+    graph::RayScene rays;      ///< no TLAS: nothing but sky is found
+    uint32_t slot = 0;         ///< of the frames in flight, below kMaxSlots
+    bool wantsCounters = true; ///< count() is called for the frame
 };
 
 /// Written at masked pixels only.
@@ -39,7 +38,7 @@ struct RayRevealOutputs {
 [[nodiscard]] RayRevealOutputs createRevealed(graph::Graph& graph, const RayRevealInputs& inputs);
 
 /// VkTraceRaysIndirectCommandKHR of one launch a masked pixel.
-/// \param list of RayMask
+/// \param list of MaskedPixels
 [[nodiscard]] graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list);
 
 /// By ray queries in a compute shader, or by a ray-tracing pipeline: what the device has.
@@ -54,7 +53,7 @@ class RayReveal {
     [[nodiscard]] bool isReady() const;
 
     /// Makes count() include a frame whose masked pixels a host reveals.
-    /// \param list of RayMask
+    /// \param list of MaskedPixels
     void countOwn(graph::Graph& graph, graph::BufferHandle list, uint32_t slot);
 
     struct Counts {

@@ -58,7 +58,10 @@ RevealedLayerPasses::RevealedLayerPasses(gpu::Device& device)
       ) {}
 
 graph::ImageHandle RevealedLayerPasses::addDominant(
-    graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
+    graph::Graph& graph,
+    const RevealedLayerInputs& inputs,
+    const RayMaskOutputs& masked,
+    const PassParams& params
 ) const {
     const graph::TransientImageDesc desc{
         params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
@@ -75,8 +78,8 @@ graph::ImageHandle RevealedLayerPasses::addDominant(
                     data.in = std::move(sampled);
                     for (graph::ImageHandle in : data.in)
                         builder.read(in, Access::SampledCompute);
-                    data.tiles = builder.read(inputs.mask.tiles, Access::StorageRead);
-                    data.arguments = builder.read(inputs.mask.tileArguments, Access::IndirectRead);
+                    data.tiles = builder.read(masked.tiles, Access::StorageRead);
+                    data.arguments = builder.read(masked.tileArguments, Access::IndirectRead);
                     data.out = builder.write(graph.createImage(image, desc), Access::StorageWrite);
                 },
                 [this, params, &pipeline, list](const TileData& data, graph::PassContext& context) {
@@ -93,7 +96,7 @@ graph::ImageHandle RevealedLayerPasses::addDominant(
     const graph::ImageHandle tiles = addPass(
         "tile max of reveal",
         mTileMax,
-        {inputs.motionDepth, inputs.reveal.motionDepth, inputs.mask.mask},
+        {inputs.motionDepth, inputs.reveal.motionDepth, inputs.mask},
         "tiles of reveal",
         0
     );
@@ -119,7 +122,7 @@ RevealedViews RevealedLayerPasses::addViews(
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.in = {
-                inputs.mask.mask,
+                inputs.mask,
                 inputs.color,
                 inputs.motionDepth,
                 inputs.reveal.color,

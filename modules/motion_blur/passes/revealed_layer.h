@@ -15,7 +15,7 @@ struct RevealedLayerInputs {
     graph::ImageHandle color;       ///< of the raster
     graph::ImageHandle motionDepth; ///< of the raster
     graph::ImageHandle tiles;       ///< longest motion of the raster's tiles
-    RayMaskOutputs mask;
+    graph::ImageHandle mask;
     RayRevealOutputs reveal;
 };
 
@@ -30,7 +30,10 @@ class RevealedLayerPasses {
 
     /// RG32F, one texel a tile; written where a tile has masked pixels.
     [[nodiscard]] graph::ImageHandle addDominant(
-        graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
+        graph::Graph& graph,
+        const RevealedLayerInputs& inputs,
+        const RayMaskOutputs& masked,
+        const PassParams& params
     ) const;
 
     /// Drawn only if they are read.

@@ -2,7 +2,9 @@
 // Active blocks, their traced pixels, and the use of their rays.
 #include "shaders/motion_blur/block_class.glsl"
 #include "shaders/motion_blur/denoise.glsl"
+#include "shaders/motion_blur/jump.glsl"
 #include "shaders/motion_blur/mask_bits.glsl"
+#include "shaders/motion_blur/missing_taps.glsl"
 #include "shaders/motion_blur/ray_mask.glsl"
 #include "shaders/motion_blur/ray_share.glsl"
 #include "shaders/motion_blur/weights.glsl"
@@ -13,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -194,6 +197,51 @@ template <class F> float respond(F&& f) {
         for (int x = -2; x <= 2; ++x)
             sum += sobelDerive(x) * sobelSmooth(y) * f(x, y);
     return sum;
+}
+
+TEST(MissingTaps, EachTapHasABitOfAWordAndEachBitStandsForATapOfItsOwn) {
+    for (uint32_t tapCount = 1; tapCount <= 256; ++tapCount)
+        for (uint32_t tap = 0; tap < tapCount; ++tap) {
+            const uint32_t bit = bitOfTap(tap, tapCount);
+            ASSERT_LT(bit, 32u);
+            ASSERT_LT(tapOfBit(bit, tapCount), tapCount);
+            ASSERT_EQ(bitOfTap(tapOfBit(bit, tapCount), tapCount), bit);
+            if (tapCount <= 32) {
+                ASSERT_EQ(tapOfBit(bit, tapCount), tap);
+            }
+        }
+}
+
+TEST(Jumps, MarksOrderByDepthHoldAPlaceAndAreNeverNone) {
+    const float depths[] = {0.0f, 1e-30f, 0.1f, 1.0f, 1.001f, 1e9f, 3.0e38f};
+    const ivec2 first(kFirstPlace);
+    const ivec2 last = first + int(kPlaceMask);
+    for (size_t i = 1; i < std::size(depths); ++i)
+        EXPECT_GT(markJump(depths[i - 1], first), markJump(depths[i], last));
+    for (const float depth : depths)
+        for (const ivec2 place : {first, ivec2(0), ivec2(3, -5), last}) {
+            const uint32_t mark = markJump(depth, place);
+            EXPECT_NE(mark, kNoJump);
+            EXPECT_EQ(placeOfJump(mark), place);
+            EXPECT_LE(depthOfJump(mark), depth);
+            EXPECT_GE(depthOfJump(mark), depth * (1.0f - 1.0f / 4096.0f) - 1e-30f);
+        }
+    EXPECT_NE(markJump(kInfinity, first), kNoJump);
+    EXPECT_NE(markJump(-1.0f, first), kNoJump);
+    EXPECT_NE(markJump(kNan, first), kNoJump);
+    // Of all blocks that a jump marks.
+    const int reach = int(kJumpReachPx);
+    const int size = int(kGroupSize);
+    EXPECT_GE(-reach, kFirstPlace);
+    EXPECT_LE(size - 1 + reach, last.x);
+}
+
+TEST(Jumps, NoStepAlongAMotionIsLongerThanWhatAMarkReaches) {
+    for (float length = 0.0f; length <= kJumpStepPx * kMaxJumpSteps; length += 0.7f)
+        EXPECT_LE(length / countJumpSteps({length, 0.0f}), kJumpStepPx) << length;
+    EXPECT_EQ(countJumpSteps({1e30f, 1e30f}), kMaxJumpSteps);
+    EXPECT_FALSE(moveApart({5.0f, 0.0f}, {5.2f, 0.0f}));
+    EXPECT_TRUE(moveApart({5.0f, 0.0f}, {5.0f, 0.3f}));
 }
 
 TEST(RayMask, TheOperatorIsTheSeparableFiveByFiveSobelWhichAnswersASlopeByItsSteepness) {

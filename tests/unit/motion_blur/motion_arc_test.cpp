@@ -35,6 +35,10 @@ struct Turn {
     }
 };
 
+bool isStraight(const Arc& arc) {
+    return arc.power[1] == vec2(0.0f) && arc.power[2] == vec2(0.0f);
+}
+
 TEST(MotionArc, WhatTurnsGoesRoundAnEllipseWhateverTheRasterTime) {
     const dvec2 place(90.0, -40.0);
     for (const Turn& turn :
