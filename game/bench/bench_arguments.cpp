@@ -119,7 +119,7 @@ bool isWanted(const MethodInfo& method, const Suite& suite) {
         return false;
     if (suite.hasLens)
         return method.hasLens || method.family == game::MethodFamily::Sharp;
-    return method.lensFilter == nullptr;
+    return method.lensFilter == nullptr && !isOnDialAlone(method.name);
 }
 
 /// All, the truth's own method included: at few instants it is a rival. For films `truth` is left
@@ -128,13 +128,16 @@ bool isWanted(const MethodInfo& method, const Suite& suite) {
 core::Result<std::vector<const MethodInfo*>>
 chooseMethods(const BenchArguments& arguments, const Suite& suite) {
     std::vector<const MethodInfo*> methods;
-    if (arguments.methods.empty()) {
+    std::vector<std::string> names = arguments.methods;
+    if (names.empty())
+        names.assign(suite.dial.begin(), suite.dial.end());
+    if (names.empty()) {
         for (const MethodInfo& method : listContenders())
             if (isWanted(method, suite))
                 methods.push_back(&method);
         return methods;
     }
-    for (const std::string& name : arguments.methods) {
+    for (const std::string& name : names) {
         auto method = findContender(name);
         if (!method)
             return core::makeError("--methods: {}", method.error().message);
@@ -195,7 +198,9 @@ core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     command.add_option("scene", arguments.shot.scene, "a scene of one's own, instead of --suite");
     command.add_option(
-        "--suite", arguments.suite, "suite: paper, hard, scaling, sequence, edges or lens"
+        "--suite",
+        arguments.suite,
+        "suite: paper, hard, scaling, sequence, edges, lens, look or dial"
     );
     command.add_option("--rooms", arguments.rooms, "folder of the rooms of the suite lens")
         ->capture_default_str();

@@ -30,7 +30,10 @@ class BenchRun {
   public:
     BenchRun(gpu::Device& device, const RunOptions& options, const StopQuestion& stop)
         : mDevice(device), mGiven(options.given), mSuite(options.suite), mMethods(options.methods),
-          mShot(options.shot), mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
+          mShot(options.shot), mStop(stop),
+          mSweep(
+              mSuite.dial.empty() ? makeSweep(mMethods, mSuite.maxRays) : makeDialPoints(mMethods)
+          ),
           mAntiAliased(makeAntiAliasedPoints(mMethods)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
           mTimesOnly(mOptions), mSequence(options.sequence) {

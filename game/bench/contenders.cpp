@@ -9,23 +9,52 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <vector>
 
 namespace shutter::bench {
 
 namespace {
 
-/// A method of the publication with its numbers.
-struct PaperRow {
+void takePapersNumbers(motion_blur::MotionBlurSettings& settings) {
+    settings = motion_blur::paperSettings();
+}
+
+template <int kPercent> void shareRays(motion_blur::MotionBlurSettings& settings) {
+    settings.rayShare = 0.01f * kPercent;
+}
+
+template <int kPerHundredPixels> void limitRays(motion_blur::MotionBlurSettings& settings) {
+    settings.raysPerPixel = 0.01f * kPerHundredPixels;
+}
+
+/// A method with other settings than its defaults.
+struct VariantRow {
     std::string_view method;
     const char* name;
     const char* description;
+    void (*apply)(motion_blur::MotionBlurSettings& settings);
 };
 
-constexpr PaperRow kPaperRows[] = {
-    {"gather", "gather_paper", "gather with the numbers of the publication"},
-    {"hybrid", "hybrid_paper", "hybrid with the numbers of the publication"},
+constexpr VariantRow kVariantRows[] = {
+    {"gather", "gather_paper", "gather with the numbers of the publication", takePapersNumbers},
+    {"hybrid", "hybrid_paper", "hybrid with the numbers of the publication", takePapersNumbers},
+    {"hybrid", "hybrid_share_0", "hybrid without rays (rayShare 0)", shareRays<0>},
+    {"hybrid", "hybrid_share_25", "hybrid, a ray for 4 masked pixels", shareRays<25>},
+    {"hybrid", "hybrid_share_50", "hybrid, a ray for 2 masked pixels", shareRays<50>},
+    {"adaptive", "adaptive_rays_2", "adaptive, 2 rays for 100 pixels", limitRays<2>},
+    {"adaptive", "adaptive_rays_50", "adaptive, 50 rays for 100 pixels", limitRays<50>},
+    {"adaptive", "adaptive_rays_200", "adaptive, 200 rays for 100 pixels", limitRays<200>},
 };
+
+const VariantRow* findVariant(std::string_view name) {
+    const auto* found =
+        std::find_if(std::begin(kVariantRows), std::end(kVariantRows), [&](const VariantRow& row) {
+            return name == row.name;
+        });
+    return found == std::end(kVariantRows) ? nullptr : found;
+}
 
 /// A depth-of-field filter of the sharp picture, or combined with a motion blur without a lens.
 struct LensRow {
@@ -78,13 +107,6 @@ game::MethodInfo describeLensContender(const LensRow& row) {
     return contender;
 }
 
-bool isPapers(std::string_view name) {
-    for (const PaperRow& row : kPaperRows)
-        if (name == row.name)
-            return true;
-    return false;
-}
-
 std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
     std::vector<uint32_t> powers;
     for (uint32_t power = first; power <= last; power *= 2)
@@ -125,7 +147,7 @@ std::span<const game::MethodInfo> listContenders() {
         std::vector<game::MethodInfo> contenders;
         for (const game::MethodInfo& method : game::listMethods()) {
             contenders.push_back(method);
-            for (const PaperRow& row : kPaperRows)
+            for (const VariantRow& row : kVariantRows)
                 if (method.name == row.method) {
                     contenders.push_back(method);
                     contenders.back().name = row.name;
@@ -137,6 +159,11 @@ std::span<const game::MethodInfo> listContenders() {
         return contenders;
     }();
     return kContenders;
+}
+
+bool isOnDialAlone(std::string_view contender) {
+    const VariantRow* variant = findVariant(contender);
+    return variant && variant->apply != takePapersNumbers;
 }
 
 core::Result<const game::MethodInfo*> findContender(std::string_view name) {
@@ -155,6 +182,18 @@ makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays)
     for (const game::MethodInfo* method : methods)
         for (uint32_t count : listSampleCounts(*method, maxRays))
             points.push_back({method, count, count == method->defaultSamples});
+    return points;
+}
+
+std::vector<SamplePoint> makeDialPoints(const std::vector<const game::MethodInfo*>& methods) {
+    constexpr std::array kRays = {4u, 16u, 64u};
+    std::vector<SamplePoint> points;
+    for (const game::MethodInfo* method : methods)
+        if (method->family != game::MethodFamily::Truth)
+            points.push_back({method, method->defaultSamples, true});
+        else
+            for (const uint32_t rays : kRays)
+                points.push_back({method, rays, false});
     return points;
 }
 
@@ -193,8 +232,8 @@ std::vector<SamplePoint> makeSequencePoints(const std::vector<const game::Method
 
 game::MethodOptions makeMethodOptions(const SamplePoint& point) {
     motion_blur::MotionBlurSettings settings;
-    if (isPapers(point.method->name))
-        settings = motion_blur::paperSettings();
+    if (const VariantRow* variant = findVariant(point.method->name))
+        variant->apply(settings);
     settings.sampleCount = point.samples;
     game::MethodOptions options = game::makeMethod(*point.method, settings);
     options.samples = point.samples;

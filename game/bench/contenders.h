@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Methods to measure: each with its default settings, and the paper's also with those of the
-// publication; and their sample counts.
+// Methods to measure: each with its default settings, the paper's also with those of the
+// publication, and some with more or fewer rays; and their sample counts.
 #pragma once
 
 #include "engine/core/result.h"
@@ -21,6 +21,9 @@ namespace shutter::bench {
 /// Error: lists the names of all contenders.
 [[nodiscard]] core::Result<const game::MethodInfo*> findContender(std::string_view name);
 
+/// Whether only a suite with a dial measures it by default.
+[[nodiscard]] bool isOnDialAlone(std::string_view contender);
+
 /// A method at one of its sample counts.
 struct SamplePoint {
     const game::MethodInfo* method = nullptr;
@@ -31,6 +34,10 @@ struct SamplePoint {
 /// Every sample count that the methods are measured at, the cheapest first.
 [[nodiscard]] std::vector<SamplePoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
+
+/// The methods at their defaults; of `truth` a few numbers of rays.
+[[nodiscard]] std::vector<SamplePoint>
+makeDialPoints(const std::vector<const game::MethodInfo*>& methods);
 
 /// With anti-aliasing: the methods that draw a raster image, which it is about, at their defaults.
 [[nodiscard]] std::vector<SamplePoint>

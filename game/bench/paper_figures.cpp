@@ -41,7 +41,7 @@ json describePassTimes() {
         {0.05, 0.05, 0.06},
         {0.33, 0.38, 0.33},
         "ours",
-        names({"sort blocks", "clear lists", "edge", "ray mask"}));
+        names({"sort blocks", "clear lists", "edge", "ray mask", "find jumps", "list missing"}));
     add("Ray Trace",
         {1.13, 2.27, 2.99},
         {0.59, 0.65, 0.62},
@@ -62,6 +62,9 @@ json describePassTimes() {
              "gather",
              "gather without mask",
              "gather and composite",
+             "count alone",
+             "count",
+             "count revealed",
              "write uniform blocks",
              "write mixed blocks",
              "write candidate blocks"}

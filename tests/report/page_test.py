@@ -153,6 +153,21 @@ class Page(PageCase):
         self.assertIn("could not be drawn in full", self.find("#failure").text)
         self.assertEqual(len(self.browser.get_log("browser")), 1)
 
+    def test_a_dial_has_a_line_per_case_by_its_methods_and_one_of_the_truth(self):
+        self.make_page("dial", lambda results: results.update(suite="dial"))
+        self.assertIn("dial", self.shown())
+        results = example_results.make("paper")
+        case = results["cases"][0]
+        points = self.expected_points(case, "psnr")
+        drawn = self.datasets("#dial-chart")
+        names = [m["name"] for m in results["methods"]]
+        self.assertEqual(drawn[case["title"]],
+                         [p for name in names if name != "truth" for p in points.get(name, [])])
+        self.assertEqual(drawn[f"{case['title']}, truth"], points["truth"])
+        self.choose("#time", "effect")
+        points = self.expected_points(case, "psnr", "effect")
+        self.assertEqual(self.datasets("#dial-chart")[f"{case['title']}, truth"], points["truth"])
+
     # Sentences
 
     def test_headline_has_the_figures_of_the_results(self):

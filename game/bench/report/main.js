@@ -32,6 +32,7 @@ function saveResults() {
 
 function drawChosen() {
     byId("case").value = chosen.case?.name ?? "";
+    drawDial();
     drawLadder();
     drawTradeoff();
     drawMatrix();
@@ -51,6 +52,7 @@ startPlayer();
 drawChosen();
 onChoice(drawChosen);
 onTheme(() => {
+    drawDial();
     drawTradeoff();
     drawScaling();
     drawSequenceCurves();

@@ -5,6 +5,7 @@
 #include "game/bench/report/chart_js.h"
 #include "game/bench/report/charts_js.h"
 #include "game/bench/report/data_js.h"
+#include "game/bench/report/dial_js.h"
 #include "game/bench/report/equal_time_js.h"
 #include "game/bench/report/format_js.h"
 #include "game/bench/report/headline_js.h"
@@ -122,6 +123,7 @@ std::string joinReportScripts() {
         viewOf(k_charts_js),
         viewOf(k_headline_js),
         viewOf(k_tradeoff_js),
+        viewOf(k_dial_js),
         viewOf(k_matrix_js),
         viewOf(k_viewport_js),
         viewOf(k_pictures_js),

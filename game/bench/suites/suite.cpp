@@ -17,8 +17,10 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -39,6 +41,7 @@ constexpr std::array kSuites = {
     SuiteRow{"edges", makeEdgesSuite},
     SuiteRow{"lens", makeLensSuite},
     SuiteRow{"look", makeLookSuite},
+    SuiteRow{"dial", makeDialSuite},
 };
 
 /// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
@@ -222,6 +225,32 @@ constexpr EdgesRow kEdgesRows[] = {
     {"gallery", "Gallery", "Nearly all is at rest.", &generator::buildGalleryScene, "shooter", 0.5},
 };
 
+Case makeHardCase(const generator::BenchCase& from) {
+    Case shot;
+    shot.name = from.name;
+    shot.title = from.title;
+    shot.description = from.description;
+    shot.shot.camera = from.camera;
+    shot.shot.time = from.timeSeconds;
+    shot.shot.shutter = game::makeShutterArguments(from.exposureSeconds, from.phase);
+    shot.shot.fps = findFilmRate(from.exposureSeconds);
+    shot.shot.background = from.background;
+    shot.writeScene = makeWriter(from.build);
+    return shot;
+}
+
+Case makeEdgesCase(const EdgesRow& row) {
+    Case shot;
+    shot.name = row.name;
+    shot.title = row.title;
+    shot.description = row.description;
+    shot.shot.camera = row.camera;
+    shot.shot.time = row.seconds;
+    shot.shot.fps = findFilmRate(generator::kExposureSeconds);
+    shot.writeScene = makeWriter(row.build);
+    return shot;
+}
+
 SequenceCase makeFilm(const SequenceRow& row) {
     SequenceCase film;
     film.name = row.name;
@@ -307,19 +336,8 @@ Suite makeHardSuite() {
     suite.repeats = 3;
     suite.limitSeconds = 30.0;
     suite.maxRays = 64;
-    for (const generator::BenchCase& from : generator::listHardCases()) {
-        Case shot;
-        shot.name = from.name;
-        shot.title = from.title;
-        shot.description = from.description;
-        shot.shot.camera = from.camera;
-        shot.shot.time = from.timeSeconds;
-        shot.shot.shutter = game::makeShutterArguments(from.exposureSeconds, from.phase);
-        shot.shot.fps = findFilmRate(from.exposureSeconds);
-        shot.shot.background = from.background;
-        shot.writeScene = makeWriter(from.build);
-        suite.cases.push_back(std::move(shot));
-    }
+    for (const generator::BenchCase& from : generator::listHardCases())
+        suite.cases.push_back(makeHardCase(from));
     return suite;
 }
 
@@ -380,17 +398,36 @@ Suite makeEdgesSuite() {
     suite.pixel = extract::PixelModel::Box;
     suite.antiAliasings = {
         game::AntiAliasing::None, game::AntiAliasing::Taa, game::AntiAliasing::Box};
-    for (const EdgesRow& row : kEdgesRows) {
-        Case shot;
-        shot.name = row.name;
-        shot.title = row.title;
-        shot.description = row.description;
-        shot.shot.camera = row.camera;
-        shot.shot.time = row.seconds;
-        shot.shot.fps = findFilmRate(generator::kExposureSeconds);
-        shot.writeScene = makeWriter(row.build);
-        suite.cases.push_back(std::move(shot));
-    }
+    for (const EdgesRow& row : kEdgesRows)
+        suite.cases.push_back(makeEdgesCase(row));
+    return suite;
+}
+
+Suite makeDialSuite() {
+    constexpr std::string_view kCases[] = {"vase", "courtyard", "courtyard-pan"};
+    constexpr std::string_view kHardCases[] = {
+        "camera_orbit", "walking_figure", "running_figure_pan"};
+    Suite suite;
+    suite.name = "dial";
+    suite.repeats = 15;
+    suite.dial = {
+        "gather",
+        "hybrid_share_0",
+        "hybrid_share_25",
+        "hybrid_share_50",
+        "hybrid",
+        "resolved",
+        "adaptive_rays_2",
+        "adaptive",
+        "adaptive_rays_50",
+        "adaptive_rays_200",
+        "truth"};
+    for (const EdgesRow& row : kEdgesRows)
+        if (std::count(std::begin(kCases), std::end(kCases), row.name) > 0)
+            suite.cases.push_back(makeEdgesCase(row));
+    for (const generator::BenchCase& from : generator::listHardCases())
+        if (std::count(std::begin(kHardCases), std::end(kHardCases), from.name) > 0)
+            suite.cases.push_back(makeHardCase(from));
     return suite;
 }
 

@@ -72,6 +72,9 @@ struct Suite {
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
     uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
     bool hasLens = false;       ///< its cameras have lenses: pinholes are measured only if named
+    /// Measured without --methods, at their defaults, from the fastest to the best; empty: all, at
+    /// each of their sample counts.
+    std::vector<std::string_view> dial;
     /// Each case is drawn with each.
     std::vector<game::AntiAliasing> antiAliasings = {game::AntiAliasing::None};
 };
@@ -101,6 +104,10 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeLookSuite();
 /// Shots that a lens sees, against the mean over lens, exposure and pixel.
 [[nodiscard]] Suite makeLensSuite();
+
+/// Six shots, of still and turning cameras, rigid and deforming things: quality against time from
+/// the cheapest method to the truth.
+[[nodiscard]] Suite makeDialSuite();
 
 /// Sets Case::writeScene of the cases that are made from a room, and leaves out, with a warning,
 /// those whose room is not in the folder. Error: no case is left.

@@ -84,6 +84,25 @@ TEST(Suites, TheLookHasEachDemoWithShadowsAndBloomBeforeAPictureOfThePixelsMean)
     EXPECT_EQ(suite.pixel, extract::PixelModel::Box);
 }
 
+TEST(Suites, TheDialMeasuresItsMethodsInItsOrderAndOtherSuitesLeaveItsVariantsOut) {
+    const auto interpret = [](const std::string& words) {
+        CLI::App app;
+        BenchArguments arguments;
+        defineBenchOptions(app, arguments);
+        app.parse(words);
+        return test::valueOf(interpretBench(arguments));
+    };
+    const BenchTask dial = interpret("--suite dial --out x");
+    EXPECT_EQ(dial.suite.cases.size(), 6u);
+    ASSERT_EQ(dial.methods.size(), dial.suite.dial.size());
+    for (size_t i = 0; i < dial.methods.size(); ++i)
+        EXPECT_EQ(dial.methods[i]->name, dial.suite.dial[i]);
+    for (const SamplePoint& point : makeDialPoints(dial.methods))
+        EXPECT_NE(point.isDefault, point.method->family == game::MethodFamily::Truth);
+    for (const game::MethodInfo* method : interpret("--suite paper --out x").methods)
+        EXPECT_FALSE(isOnDialAlone(method->name)) << method->name;
+}
+
 TEST(Suites, EachCaseIsThereWithEachAntiAliasingAndTheSuitesPixel) {
     Suite suite = makeEdgesSuite();
     const size_t count = suite.cases.size();
@@ -227,7 +246,7 @@ TEST(Sweep, SampleCountsRiseWithinAMethodAndContainItsDefaultOnce) {
     }
 }
 
-TEST(Contenders, ContendersAreTheMethodsAndThePapersWithItsNumbers) {
+TEST(Contenders, ContendersAreTheMethodsThePapersWithItsNumbersAndSomeWithOtherRays) {
     for (const game::MethodInfo& method : game::listMethods()) {
         const auto found = test::valueOf(findContender(method.name));
         const game::MethodOptions options = makeMethodOptions({found, method.defaultSamples, true});
@@ -241,6 +260,10 @@ TEST(Contenders, ContendersAreTheMethodsAndThePapersWithItsNumbers) {
     }
     const game::MethodInfo* paper = findContender("hybrid_paper").value();
     EXPECT_EQ(makeMethodOptions({paper, 15, true}).motionBlur, motion_blur::paperSettings());
+    const game::MethodInfo* fewer = findContender("hybrid_share_25").value();
+    EXPECT_FLOAT_EQ(makeMethodOptions({fewer, 15, true}).motionBlur.rayShare, 0.25f);
+    const game::MethodInfo* more = findContender("adaptive_rays_200").value();
+    EXPECT_FLOAT_EQ(makeMethodOptions({more, 15, true}).motionBlur.raysPerPixel, 2.0f);
     test::expectRefused(findContender("nosuch"), "gather_paper");
 }
 
