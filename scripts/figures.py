@@ -15,9 +15,9 @@ import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SUITES = ("paper", "dial", "hard", "sequence", "edges", "lens", "look", "own")
+SUITES = ("paper", "dial", "hard", "sequence", "edges", "lens", "own")
 # Against the mean over the pixel, with each anti-aliasing, by default.
-SUITES_WITH_EDGES = ("edges", "lens", "look")
+SUITES_WITH_EDGES = ("edges", "lens")
 # Of methods whose error falls with each sample, these counts; of all others the default.
 SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised": (1, 4)}
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
