@@ -39,6 +39,9 @@ layout(binding = 10, scalar) buffer SortedArguments { DispatchArguments uLists[k
 /// and a tenth closes the gaps where neighbours move apart.
 const float kReachPx = 0.6f;
 
+/// Up to which a path that turns may be searched as a straight one.
+const float kMaxBendPx = 4.0f;
+
 /// Motions of what may pass, over the exposure.
 struct Passing {
     vec2 dominant;
@@ -124,9 +127,21 @@ bool mayPass(Surface surface, vec2 motion, Jump jump) {
            !isAlike(motion, surface.motionDepth.xy);
 }
 
-vec2 motionAtJump(Jump jump) {
+Surface surfaceAtJump(Jump jump) {
     vec2 pixel = floor(jump.block) * float(kGroupSize) + vec2(placeOfJump(jump.mark));
-    return shownMotionDepth(uMotionDepth, uvOf(pixel + 0.5f)).xy;
+    return surfaceInRaster(pixel + 0.5f);
+}
+
+/// How far a surface's path leaves the straight one within the exposure, pixels.
+float findBend(Surface surface) {
+    Arc arc = findArc(surface);
+    vec2 motion = surface.motionDepth.xy;
+    float before = params.rasterTime - 1.0f;
+    float after = params.rasterTime;
+    return max(
+        length(placeOnArc(arc, before) - motion * before),
+        length(placeOnArc(arc, after) - motion * after)
+    );
 }
 
 /// Whether another surface may be seen at the pixel, and which motions it may have.
@@ -139,9 +154,11 @@ bool meetsOthers(Surface surface, vec2 dominant, out Passing passing) {
         jump = nearerOf(jump, findJumpAlong(surface.centre, motion));
     passing = Passing(dominant, vec2(0.0f), triesDominant, false);
     if (jump.mark == kNoJump) return false;
-    passing.nearest = motionAtJump(jump);
-    passing.triesNearest =
-        mayPass(surface, passing.nearest, jump) && !isAlike(passing.nearest, dominant);
+    Surface nearest = surfaceAtJump(jump);
+    passing.nearest = nearest.motionDepth.xy;
+    // Of what turns far, the straight guess would find pixels that are elsewhere by then.
+    passing.triesNearest = mayPass(surface, passing.nearest, jump) &&
+                           !isAlike(passing.nearest, dominant) && findBend(nearest) < kMaxBendPx;
     return true;
 }
 

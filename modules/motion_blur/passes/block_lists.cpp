@@ -49,6 +49,20 @@ constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
 
 } // namespace
 
+BlockLists readList(graph::PassBuilder& builder, const BlockLists& list) {
+    return {
+        builder.read(list.blocks, Access::StorageRead),
+        builder.read(list.arguments, Access::IndirectRead)};
+}
+
+SortedBlocks writeMasked(graph::PassBuilder& builder, const SortedBlocks& blocks) {
+    return {
+        {builder.write(blocks.lists.blocks, Access::StorageWrite),
+         builder.write(blocks.lists.arguments, Access::StorageWrite)},
+        {builder.write(blocks.candidates.blocks, Access::StorageWrite),
+         builder.read(blocks.candidates.arguments, Access::IndirectRead)}};
+}
+
 bool BlockSorter::listsStill(const gpu::Device& device) {
     return !isSoftware(device);
 }

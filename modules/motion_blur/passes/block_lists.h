@@ -30,6 +30,12 @@ struct SortedBlocks {
     BlockLists candidates;
 };
 
+/// Declares a pass that is dispatched over a list and reads it.
+[[nodiscard]] BlockLists readList(graph::PassBuilder& builder, const BlockLists& list);
+
+/// Declares a pass that is dispatched over the candidates, flags some of them and lists those.
+[[nodiscard]] SortedBlocks writeMasked(graph::PassBuilder& builder, const SortedBlocks& blocks);
+
 /// Blocks of a picture by class.
 struct BlockCounters {
     uint32_t still = 0;   ///< neither read nor written

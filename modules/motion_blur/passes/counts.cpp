@@ -29,25 +29,12 @@ gpu::ComputePipelineDesc describeOverList(
     return desc;
 }
 
-/// Declares that a pass is dispatched over a list and reads it.
-BlockLists readList(graph::PassBuilder& builder, const BlockLists& list) {
-    return {
-        builder.read(list.blocks, Access::StorageRead),
-        builder.read(list.arguments, Access::IndirectRead)};
-}
-
 } // namespace
 
 Counts::Counts(gpu::Device& device)
-    : Counts(device, chooseTapVariants(device), chooseMaskListing(device)) {}
-
-Counts::Counts(gpu::Device& device, TapVariants taps, MaskListing listing)
     : mSampler(device.nearestSampler()),
       mAlone(
-          device,
-          shader::kMixedList,
-          {"count alone", motion_blur_count_alone_comp, 3, {0}, true},
-          taps
+          device, shader::kMixedList, {"count alone", motion_blur_count_alone_comp, 3, {0}, true}
       ),
       mJumps(
           device,
@@ -76,7 +63,7 @@ Counts::Counts(gpu::Device& device, TapVariants taps, MaskListing listing)
                kBuffer},
               {shader::kCandidateList, 0}
           ),
-          taps
+          chooseTapVariants(device)
       ),
       mMask(
           device,
@@ -84,14 +71,14 @@ Counts::Counts(gpu::Device& device, TapVariants taps, MaskListing listing)
               "list missing",
               motion_blur_list_missing_comp,
               {kSampled, kStorage, kBuffer, kBuffer, kBuffer},
-              {shader::kMaskedList, listing == MaskListing::BlockByBlock ? 1u : 0u}
+              {shader::kMaskedList,
+               chooseMaskListing(device) == MaskListing::BlockByBlock ? 1u : 0u}
           )
       ),
       mRevealed(
           device,
           shader::kMaskedList,
-          {"count revealed", motion_blur_count_revealed_comp, 8, {0}, true},
-          taps
+          {"count revealed", motion_blur_count_revealed_comp, 8, {0}, true}
       ) {}
 
 ClearedCounts Counts::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
@@ -191,13 +178,7 @@ void Counts::addCandidates(
             data.in = {inputs.color, inputs.motionDepth, inputs.dominant, inputs.entityId, jumps};
             for (const graph::ImageHandle image : data.in)
                 builder.read(image, Access::SampledCompute);
-            const SortedBlocks& blocks = counted.blocks;
-            data.blocks.lists = {
-                builder.write(blocks.lists.blocks, Access::StorageWrite),
-                builder.write(blocks.lists.arguments, Access::StorageWrite)};
-            data.blocks.candidates = {
-                builder.write(blocks.candidates.blocks, Access::StorageWrite),
-                builder.read(blocks.candidates.arguments, Access::IndirectRead)};
+            data.blocks = writeMasked(builder, counted.blocks);
             data.out = {
                 builder.write(counted.target, Access::StorageWriteDisjoint),
                 builder.write(

@@ -30,7 +30,7 @@ struct ClearedCounts {
 };
 
 struct CountedRaster {
-    graph::ImageHandle target; ///< complete but for masked pixels
+    graph::ImageHandle target; ///< complete except at masked pixels
     MaskedPixels masked;       ///< those with missing taps
     SortedBlocks blocks;       ///< with kMaskedList, and candidates flagged
     graph::ImageHandle
@@ -41,7 +41,6 @@ struct CountedRaster {
 class Counts {
   public:
     explicit Counts(gpu::Device& device);
-    Counts(gpu::Device& device, TapVariants taps, MaskListing listing);
 
     /// What nothing has written, to be cleared with other lists.
     [[nodiscard]] static ClearedCounts

@@ -102,9 +102,7 @@ graph::ImageHandle BlockFilter::add(
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, FilterData& data) {
                 readAndWrite(builder, data, inputs, target, Access::StorageWriteDisjoint);
-                data.lists = {
-                    builder.read(lists.blocks, Access::StorageRead),
-                    builder.read(lists.arguments, Access::IndirectRead)};
+                data.lists = readList(builder, lists);
             },
             [this, params](const FilterData& data, graph::PassContext& context) {
                 auto bindings = bindImages(data, context.resources, mSampler);

@@ -142,9 +142,7 @@ RayMask::Edges RayMask::addEdges(
             data.in = {inputs.motionDepth, inputs.normal, inputs.entityId};
             for (graph::ImageHandle image : data.in)
                 builder.read(image, Access::SampledCompute);
-            data.candidates = inputs.blocks.candidates;
-            builder.read(data.candidates.blocks, Access::StorageRead);
-            builder.read(data.candidates.arguments, Access::IndirectRead);
+            data.candidates = readList(builder, inputs.blocks.candidates);
             data.out.edges = builder.write(cleared.edges, Access::StorageWrite);
             data.out.blocks = builder.write(cleared.blocks, Access::StorageWrite);
         },
@@ -204,13 +202,7 @@ RayMaskOutputs RayMask::add(
             data.out.masked.mask = builder.write(empty.masked.mask, Access::StorageWrite);
             data.out.masked.list = builder.write(empty.masked.list, Access::StorageWrite);
             data.out.masked.arguments = builder.write(empty.masked.arguments, Access::StorageWrite);
-            const SortedBlocks& blocks = inputs.blocks;
-            data.out.blocks.lists = {
-                builder.write(blocks.lists.blocks, Access::StorageWrite),
-                builder.write(blocks.lists.arguments, Access::StorageWrite)};
-            data.out.blocks.candidates = {
-                builder.write(blocks.candidates.blocks, Access::StorageWrite),
-                builder.read(blocks.candidates.arguments, Access::IndirectRead)};
+            data.out.blocks = writeMasked(builder, inputs.blocks);
             data.out.tiles = builder.write(empty.tiles, Access::StorageWrite);
             data.out.tileArguments = builder.write(empty.tileArguments, Access::StorageWrite);
         },

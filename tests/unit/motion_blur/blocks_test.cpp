@@ -229,7 +229,7 @@ TEST(Jumps, MarksOrderByDepthHoldAPlaceAndAreNeverNone) {
     EXPECT_NE(markJump(kInfinity, first), kNoJump);
     EXPECT_NE(markJump(-1.0f, first), kNoJump);
     EXPECT_NE(markJump(kNan, first), kNoJump);
-    // Of all blocks that a jump marks.
+    // The place fits for every block that a jump marks.
     const int reach = int(kJumpReachPx);
     const int size = int(kGroupSize);
     EXPECT_GE(-reach, kFirstPlace);
