@@ -39,7 +39,7 @@ layout(binding = 10, scalar) buffer SortedArguments { DispatchArguments uLists[k
 /// and a tenth closes the gaps where neighbours move apart.
 const float kReachPx = 0.6f;
 
-/// Up to which a path that turns may be searched as a straight one.
+/// A path that leaves its chord by less is searched as a straight one.
 const float kMaxBendPx = 4.0f;
 
 /// Motions of what may pass, over the exposure.
@@ -100,7 +100,7 @@ Jump nearerOf(Jump a, Jump b) {
     return b;
 }
 
-/// The nearest jump near anything that has that motion and comes to the pixel.
+/// The nearest jump close to the line on which surfaces of that motion come to the pixel.
 Jump findJumpAlong(vec2 centre, vec2 motion) {
     vec2 toBlocks = vec2(1.0f / float(kGroupSize));
     vec2 blockCount = ceil(vec2(params.sizePx) * toBlocks);
@@ -156,7 +156,7 @@ bool meetsOthers(Surface surface, vec2 dominant, out Passing passing) {
     if (jump.mark == kNoJump) return false;
     Surface nearest = surfaceAtJump(jump);
     passing.nearest = nearest.motionDepth.xy;
-    // Of what turns far, the straight guess would find pixels that are elsewhere by then.
+    // For a surface that turns far, the straight guess finds pixels that have left by then.
     passing.triesNearest = mayPass(surface, passing.nearest, jump) &&
                            !isAlike(passing.nearest, dominant) && findBend(nearest) < kMaxBendPx;
     return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where one surface ends before another one that moves differently: only there can something be hidden,
-// passed or uncovered. Found by pixel, kept by block.
+// A jump is where one surface ends and another one, which moves differently, begins. Only near jumps can
+// surfaces hide, pass or uncover each other. Jumps are found per pixel and stored per block.
 #ifndef SHUTTER_MOTION_BLUR_JUMP_GLSL
 #define SHUTTER_MOTION_BLUR_JUMP_GLSL
 
@@ -9,10 +9,10 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Steps along a motion that look for jumps, pixels.
+/// Length of the steps of a search for jumps along a motion, pixels.
 SHUTTER_CONST float kJumpStepPx = 8.0f;
 
-/// Motions that differ by less are looked along once.
+/// Of two motions that differ by less, one is searched, pixels.
 SHUTTER_CONST float kAlikePx = 2.0f;
 
 /// A jump marks all blocks within this distance of it, so that no step passes over one.
@@ -21,7 +21,7 @@ SHUTTER_CONST float kJumpReachPx = 0.5f * kJumpStepPx + kAlikePx;
 /// Least difference of motion: less displaces a surface by less than a pixel shows.
 SHUTTER_CONST float kJumpMotionPx = 0.25f;
 
-/// Motions of more than 512 pixels are walked in longer steps, which may miss a jump.
+/// Along motions of more than 512 pixels the steps are longer, and may miss a jump.
 SHUTTER_CONST float kMaxJumpSteps = 64.0f;
 
 SHUTTER_INLINE float countJumpSteps(vec2 motion) {
