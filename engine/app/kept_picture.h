@@ -18,8 +18,8 @@ class KeptPicture : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "a later frame shows the picture"};
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override {
+        return {.run = {true, "a later frame shows the picture"}};
     }
 
     void declare(render::PostContext& context) override;

@@ -73,8 +73,8 @@ class WindowOutput : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "the picture is shown"};
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override {
+        return {.run = {true, "the picture is shown"}};
     }
 
     void declare(render::PostContext& context) override;

@@ -55,13 +55,13 @@ RasterRecord makeRasterRecord(
             {one.row, one.mesh, one.raster, frame.entities[one.row].clipFromObjectRaster}
         );
     }
-    record.layer = listLayerEntities(frame);
+    record.layer = listEntities(frame, frame.layerRows);
     return record;
 }
 
-std::vector<ecs::Entity> listLayerEntities(const ExtractedFrame& frame) {
+std::vector<ecs::Entity> listEntities(const ExtractedFrame& frame, std::span<const uint32_t> rows) {
     std::vector<ecs::Entity> entities;
-    for (const uint32_t row : frame.layerRows)
+    for (const uint32_t row : rows)
         entities.push_back(frame.entityHandles[row]);
     std::sort(entities.begin(), entities.end(), [](ecs::Entity a, ecs::Entity b) {
         return a.index < b.index;

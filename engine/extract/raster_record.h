@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shutter::extract {
@@ -44,8 +45,9 @@ struct RasterRecord {
     std::vector<ecs::Entity> layer;
 };
 
-/// Those whose blended surfaces are not in the frame's raster, in order.
-[[nodiscard]] std::vector<ecs::Entity> listLayerEntities(const ExtractedFrame& frame);
+/// The rows' entities, in order.
+[[nodiscard]] std::vector<ecs::Entity>
+listEntities(const ExtractedFrame& frame, std::span<const uint32_t> rows);
 
 /// Picture space (layer_tables.h) at shutter time `s` from the world, as ViewRequest::lensPlace has
 /// it.

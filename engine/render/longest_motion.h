@@ -19,8 +19,8 @@ class LongestMotion : public PostEffect {
 
     [[nodiscard]] std::string name() const override { return "longest motion"; }
 
-    [[nodiscard]] core::Decision decide(const ViewFacts&) const override {
-        return {true, "it is measured for the picture to come"};
+    [[nodiscard]] Needs decide(const DecideContext&) const override {
+        return {.run = {true, "it is measured for the picture to come"}};
     }
 
     void declare(PostContext& context) override;

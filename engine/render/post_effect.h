@@ -15,6 +15,7 @@
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/world.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -29,7 +30,7 @@ namespace shutter::render {
 /// is shown.
 inline constexpr const char* kBrightest = "brightest channel";
 
-/// Inputs of an effect's decision.
+/// What is known of a frame before effects decide.
 struct ViewFacts {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -103,7 +104,7 @@ struct ExtractContext {
     /// Changes whenever shadow maps of lights do. Shadows of movers with separate layers are not in
     /// it: ShadowConstants::tiles bounds them.
     uint64_t shadowRevision = 0;
-    /// Particles to draw over the effect's picture (PostEffect::decideParticleDraw); null: none.
+    /// Particles to draw over the effect's picture (Needs::exposure); null: none.
     const extract::ParticleTables* particles = nullptr;
 };
 
@@ -153,6 +154,44 @@ struct FinishedFrame {
     std::vector<Explanation>& explanations; ///< takes what only those counts and measures explain
 };
 
+/// What an effect needs of a frame. Where a decision has a reason but does not `run`, that is why
+/// not in this frame; without a reason, never.
+struct Needs {
+    core::Decision run{};          ///< its passes; without them only `exposure` counts
+    core::Decision rays{};         ///< against the TLAS of the raster instant
+    core::Decision timedRays{};    ///< at any time of the exposure
+    core::Decision secondRaster{}; ///< PostContext::secondRaster
+    /// PostContext::lastRaster, for effects without stored history. Only if
+    /// extract::makeViewBefore() finds that frame.
+    core::Decision lastRaster{};
+    /// Blended surfaces that move against what is around them leave the raster
+    /// (DecideContext::findTakenRows); it draws them after its own passes.
+    core::Decision movingBlended{};
+    /// Its picture shows the whole exposure: particles are drawn over it, with their motion, and
+    /// not into the raster; also where it does not run.
+    core::Decision exposure{};
+    bool usesLens = false; ///< it draws all from many places of the camera's lens
+    /// GBuffer::edgeSurface: colours are then those of one surface, otherwise the mean of all
+    /// samples.
+    bool edges = false;
+    bool normals = false; ///< GBuffer::normal of the frame's own raster
+};
+
+/// Inputs of an effect's decision.
+struct DecideContext {
+    const ViewFacts& facts;
+    const scene::World& world;
+    const extract::SceneLayout& layout;
+    const extract::ViewRequest& view;
+    const scene::ExposureMotion& motion; ///< of the view's exposure
+    const extract::ExtractedFrame& frame;
+    mutable std::array<std::optional<std::vector<uint32_t>>, 2> found{}; ///< by findTakenRows()
+
+    /// Rows whose blended surfaces leave the raster for an effect with Needs::movingBlended
+    /// (extract::findLayerRows()); searched on the first call.
+    [[nodiscard]] const std::vector<uint32_t>& findTakenRows(bool usesLens) const;
+};
+
 class PostEffect {
   public:
     virtual ~PostEffect() = default;
@@ -163,42 +202,8 @@ class PostEffect {
     /// picture, PassOwner::Blur only for motion blur and lens blur.
     [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Other; }
 
-    /// Pure: depends on the facts and the effect's settings only.
-    [[nodiscard]] virtual core::Decision decide(const ViewFacts& facts) const = 0;
-
-    /// Returns whether this effect traces rays against the TLAS of the raster instant; only used
-    /// when it runs. Must have no side effects. Default: skipped without a reason.
-    [[nodiscard]] virtual core::Decision decideRays(const ViewFacts&) const { return {}; }
-
-    /// The same for rays at any time of the exposure.
-    [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
-
-    /// Whether it draws moving blended surfaces itself, after its own passes: those in
-    /// ExtractedFrame::layerRows are then in no raster.
-    [[nodiscard]] virtual core::Decision askLayer(const ViewFacts&) const { return {}; }
-
-    /// Whether it draws them from places of the camera's lens, as it does all else.
-    [[nodiscard]] virtual bool seesThroughLens(const ViewFacts&) const { return false; }
-
-    /// The same for a raster of the world at the other end of the exposure
-    /// (PostContext::secondRaster).
-    [[nodiscard]] virtual core::Decision askSecondRaster(const ViewFacts&) const { return {}; }
-
-    /// The same for the raster of the previous frame, drawn once more (PostContext::lastRaster):
-    /// for effects without stored history. It runs only if extract::makeViewBefore() finds that
-    /// frame. The rasters of the context do not exist yet.
-    [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
-
-    /// Returns whether it reads the surfaces at an edge separately (GBuffer::edgeSurface): colours
-    /// are then those of one surface, otherwise the mean of all samples. Only used when it runs.
-    [[nodiscard]] virtual bool readsEdges() const { return false; }
-
-    /// Returns whether it reads GBuffer::normal of the frame's own raster. Only used when it runs.
-    [[nodiscard]] virtual bool readsNormals() const { return false; }
-
-    /// Whether particles are drawn over its picture, with their motion over the exposure, and not
-    /// into the raster; also used if it does not run.
-    [[nodiscard]] virtual core::Decision decideParticleDraw(const ViewFacts&) const { return {}; }
+    /// Pure: depends on the context and the effect's settings and history only.
+    [[nodiscard]] virtual Needs decide(const DecideContext& context) const = 0;
 
     /// Reads the data for the effect's passes from the world; only called if decide() decided to
     /// run, for all effects of the frame in order, before any declares passes.

@@ -258,7 +258,10 @@ core::Status Renderer::submitFrame(
         .facts = facts,
         .slot = pending.slot,
         .colorJitterPx = request.view.jitterPx};
-    RunningEffects running = askEffects(context, frame, effects, explainer);
+    RunningEffects running = joinNeeds(
+        {facts, world, mScene.layout(), request.view, context.motion, frame}, effects, explainer
+    );
+    frame.layerRows = running.layerRows;
     if (running.samplesEdges && facts.isDefocused)
         running.confusion = math::confusionOf(extract::describeLens(
             context.motion,

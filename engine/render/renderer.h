@@ -170,10 +170,11 @@ class Renderer {
         core::Decision secondRaster;
         core::Decision lastRaster;
         core::Decision layer;
-        bool mayTrace = false;     ///< in another frame, if not in this
-        bool samplesEdges = false; ///< the frame is drawn with several samples per pixel
-        bool readsEdges = false;   ///< PostEffect::readsEdges of one of them
-        bool readsNormals = false; ///< PostEffect::readsNormals likewise
+        std::vector<uint32_t> layerRows; ///< ExtractedFrame::layerRows
+        bool mayTrace = false;           ///< in another frame, if not in this
+        bool samplesEdges = false;       ///< the frame is drawn with several samples per pixel
+        bool readsEdges = false;         ///< Needs::edges of one of them
+        bool readsNormals = false;       ///< Needs::normals likewise
         /// GBufferPass::Source::confusion.
         math::vec2 confusion{0.0f};
         core::Decision particles; ///< run: they are drawn with their motion over the exposure
@@ -256,17 +257,10 @@ class Renderer {
     /// from frame to frame, and bright points keep their light.
     [[nodiscard]] core::Result<OwnFrame>
     extractOwn(const scene::World& world, const extract::ViewRequest& view, bool hasEffects);
-    /// \param frame the context's, which gets its ExtractedFrame::layerRows
-    RunningEffects askEffects(
-        const ExtractContext& context,
-        extract::ExtractedFrame& frame,
-        std::span<PostEffect* const> effects,
-        Explainer& explainer
-    ) const;
-    /// Fills the frame's ExtractedFrame::layerRows where the effect draws them.
-    core::Decision decideLayer(
-        const PostEffect& effect, const ExtractContext& context, extract::ExtractedFrame& frame
-    ) const;
+    /// Joins what the effects of a frame need.
+    static RunningEffects joinNeeds(
+        const DecideContext& context, std::span<PostEffect* const> effects, Explainer& explainer
+    );
     /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
         Slot& slot,

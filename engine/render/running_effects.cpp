@@ -17,73 +17,66 @@ void join(core::Decision& all, const std::string& effect, const core::Decision& 
         all = {own.run, effect + ": " + own.reason};
 }
 
+/// \param rows that DecideContext::findTakenRows() found
+core::Decision
+describeLayer(const std::vector<uint32_t>& rows, const extract::SceneLayout& layout) {
+    if (rows.empty())
+        return {
+            false,
+            layout.hasBlended ? "blended surfaces move as what is around them does"
+                              : "the scene has no blended surface"};
+    return {
+        true,
+        core::countOf(rows.size(), "entity has", "entities have") +
+            " blended surfaces that do not move as what is around them does"};
+}
+
 } // namespace
 
-Renderer::RunningEffects Renderer::askEffects(
-    const ExtractContext& context,
-    extract::ExtractedFrame& frame,
-    std::span<PostEffect* const> effects,
-    Explainer& explainer
-) const {
+const std::vector<uint32_t>& DecideContext::findTakenRows(bool usesLens) const {
+    std::optional<std::vector<uint32_t>>& taken = found[usesLens ? 1 : 0];
+    if (!taken)
+        taken = extract::findLayerRows(world, layout, view, motion, frame, usesLens);
+    return *taken;
+}
+
+Renderer::RunningEffects Renderer::joinNeeds(
+    const DecideContext& context, std::span<PostEffect* const> effects, Explainer& explainer
+) {
     const ViewFacts& facts = context.facts;
     RunningEffects running;
-    running.samplesEdges = context.view.samplesEdges && !frame.isCameraAtRest;
+    running.samplesEdges = context.view.samplesEdges && !context.frame.isCameraAtRest;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
     running.secondRaster = running.lastRaster = {false, "no effect that runs needs it"};
     running.layer = {false, "no effect that runs draws one"};
     for (PostEffect* effect : effects) {
-        core::Decision decision = effect->decide(facts);
-        const core::Decision rays = effect->decideRays(facts);
-        const core::Decision timedRays = effect->askTimedRays(facts);
-        if (decision.run && (rays.run || timedRays.run) && !facts.deviceHasRays)
-            decision = {false, "it needs rays, which the device cannot trace"};
-        if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
-            decision = {false, "it needs ray queries, which the device lacks"};
-        explainer.decide(ExplainedKind::Effect, effect->name(), decision);
-        const core::Decision particles = effect->decideParticleDraw(facts);
-        join(running.particles, effect->name(), particles);
-        if (particles.run)
-            running.particlesAt = running.effects.size() + (decision.run ? 1 : 0);
-        if (!decision.run)
+        Needs needs = effect->decide(context);
+        const bool traces = needs.rays.run || needs.timedRays.run;
+        if (needs.run.run && traces && !facts.deviceHasRays)
+            needs.run = {false, "it needs rays, which the device cannot trace"};
+        if (needs.run.run && needs.timedRays.run && !facts.deviceHasRayQuery)
+            needs.run = {false, "it needs ray queries, which the device lacks"};
+        explainer.decide(ExplainedKind::Effect, effect->name(), needs.run);
+        join(running.particles, effect->name(), needs.exposure);
+        if (needs.exposure.run)
+            running.particlesAt = running.effects.size() + (needs.run.run ? 1 : 0);
+        if (!needs.run.run)
             continue;
-        if (!running.layer.run)
-            join(running.layer, effect->name(), decideLayer(*effect, context, frame));
-        const core::Decision secondRaster = effect->askSecondRaster(facts);
-        const core::Decision lastRaster = effect->askLastRaster(context);
-        running.effects.push_back({effect, secondRaster.run, lastRaster.run});
-        running.readsEdges = running.readsEdges || effect->readsEdges();
-        running.readsNormals = running.readsNormals || effect->readsNormals();
-        running.mayTrace = running.mayTrace || !rays.reason.empty();
-        join(running.rays, effect->name(), rays);
-        join(running.timedRays, effect->name(), timedRays);
-        join(running.secondRaster, effect->name(), secondRaster);
-        join(running.lastRaster, effect->name(), lastRaster);
+        if (!running.layer.run && needs.movingBlended.run) {
+            running.layerRows = context.findTakenRows(needs.usesLens);
+            needs.movingBlended = describeLayer(running.layerRows, context.layout);
+        }
+        join(running.layer, effect->name(), needs.movingBlended);
+        running.effects.push_back({effect, needs.secondRaster.run, needs.lastRaster.run});
+        running.readsEdges = running.readsEdges || needs.edges;
+        running.readsNormals = running.readsNormals || needs.normals;
+        running.mayTrace = running.mayTrace || !needs.rays.reason.empty();
+        join(running.rays, effect->name(), needs.rays);
+        join(running.timedRays, effect->name(), needs.timedRays);
+        join(running.secondRaster, effect->name(), needs.secondRaster);
+        join(running.lastRaster, effect->name(), needs.lastRaster);
     }
     return running;
-}
-
-core::Decision Renderer::decideLayer(
-    const PostEffect& effect, const ExtractContext& context, extract::ExtractedFrame& frame
-) const {
-    core::Decision decision = effect.askLayer(context.facts);
-    if (!decision.run)
-        return decision;
-    frame.layerRows = extract::findLayerRows(
-        context.world,
-        mScene.layout(),
-        context.view,
-        context.motion,
-        frame,
-        effect.seesThroughLens(context.facts)
-    );
-    if (frame.layerRows.empty())
-        return {
-            false,
-            mScene.layout().hasBlended ? "blended surfaces move as what is around them does"
-                                       : "the scene has no blended surface"};
-    decision.reason = core::countOf(frame.layerRows.size(), "entity has", "entities have") +
-                      " blended surfaces that do not move as what is around them does";
-    return decision;
 }
 
 core::Status Renderer::extractForEffects(
@@ -93,7 +86,7 @@ core::Status Renderer::extractForEffects(
     const RunningEffects& running
 ) {
     const extract::SceneLayout& layout = mScene.layout();
-    const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
+    const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.layerRows);
     // Nothing gathers the samples of static surfaces in these.
     extract::ViewRequest view = extract::withoutStaticSamples(context.view);
     view.samplesEdges = running.samplesEdges; // as this frame is drawn

@@ -99,8 +99,8 @@ void Accumulate::setInstant(uint32_t index, uint32_t count) {
     mFrame = {index == 0, index + 1 == count, 1.0, double(count)};
 }
 
-core::Decision Accumulate::decide(const render::ViewFacts&) const {
-    return {true, "every frame of the picture is added"};
+render::Needs Accumulate::decide(const render::DecideContext&) const {
+    return {.run = {true, "every frame of the picture is added"}};
 }
 
 void Accumulate::declare(render::PostContext& context) {

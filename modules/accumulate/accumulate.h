@@ -57,7 +57,7 @@ class Accumulate : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void declare(render::PostContext& context) override;
 
   private:

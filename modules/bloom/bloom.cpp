@@ -100,7 +100,11 @@ void Bloom::configure(const BloomSettings& settings) {
     mSettings = settings;
 }
 
-core::Decision Bloom::decide(const render::ViewFacts& facts) const {
+render::Needs Bloom::decide(const render::DecideContext& context) const {
+    return {.run = decideRun(context.facts)};
+}
+
+core::Decision Bloom::decideRun(const render::ViewFacts& facts) const {
     if (!(mSettings.share > 0.0f))
         return {false, "the lens scatters no light"};
     if (countLevels(facts.width, facts.height) == 0)

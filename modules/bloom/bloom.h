@@ -53,10 +53,11 @@ class Bloom : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "bloom"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void declare(render::PostContext& context) override;
 
   private:
+    [[nodiscard]] core::Decision decideRun(const render::ViewFacts& facts) const;
     [[nodiscard]] graph::ImageHandle
     addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size, float threshold) const;
     /// \param share of `coarse` in the result, which has the size of `fine`

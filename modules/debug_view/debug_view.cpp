@@ -137,10 +137,10 @@ std::set<std::string> listSources(std::string_view name) {
 DebugView::DebugView(gpu::Device& device)
     : mSampler(device.nearestSampler()), mPipeline(device, describePipeline()) {}
 
-core::Decision DebugView::decide(const render::ViewFacts&) const {
+render::Needs DebugView::decide(const render::DecideContext&) const {
     if (mView.empty())
-        return {false, "no intermediate is to be shown"};
-    return {true, "an intermediate is shown: " + mView};
+        return {.run = {false, "no intermediate is to be shown"}};
+    return {.run = {true, "an intermediate is shown: " + mView}};
 }
 
 void DebugView::declare(render::PostContext& context) {

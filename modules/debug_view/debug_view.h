@@ -51,7 +51,7 @@ class DebugView : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void declare(render::PostContext& context) override;
 
   private:

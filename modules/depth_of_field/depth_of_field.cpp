@@ -111,18 +111,15 @@ void DepthOfField::configure(const DepthOfFieldSettings& settings) {
     mSettings = settings;
 }
 
-core::Decision DepthOfField::decide(const render::ViewFacts& facts) const {
+render::Needs DepthOfField::decide(const render::DecideContext& context) const {
     if (!mSettings.filter)
-        return {false, "no filter is chosen"};
-    if (mSettings.filter->tracesRays && !facts.deviceHasRayQuery)
-        return {false, "it needs ray queries, which the device lacks"};
-    return {true, "the picture is filtered by the camera's lens"};
-}
-
-core::Decision DepthOfField::decideRays(const render::ViewFacts&) const {
-    if (!mSettings.filter || !mSettings.filter->tracesRays)
-        return {};
-    return {true, "rays see past what is near"};
+        return {.run = {false, "no filter is chosen"}};
+    if (mSettings.filter->tracesRays && !context.facts.deviceHasRayQuery)
+        return {.run = {false, "it needs ray queries, which the device lacks"}};
+    render::Needs needs{.run = {true, "the picture is filtered by the camera's lens"}};
+    if (mSettings.filter->tracesRays)
+        needs.rays = {true, "rays see past what is near"};
+    return needs;
 }
 
 void DepthOfField::extract(render::ExtractContext& context) {

@@ -49,8 +49,7 @@ class DepthOfField : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
-    [[nodiscard]] core::Decision decideRays(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;
     void finish(render::FinishedFrame& frame) override;

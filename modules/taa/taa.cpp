@@ -85,10 +85,10 @@ extract::ViewRequest makeJittered(const extract::ViewRequest& view, int64_t fram
 Taa::Taa(gpu::Device& device)
     : mDevice(device), mPipeline(device, describePipeline()), mStatic(device) {}
 
-core::Decision Taa::decide(const render::ViewFacts&) const {
+render::Needs Taa::decide(const render::DecideContext&) const {
     if (!mEnabled)
-        return {false, "no temporal anti-aliasing is wanted"};
-    return {true, "each frame samples another place in the pixel of static surfaces"};
+        return {.run = {false, "no temporal anti-aliasing is wanted"}};
+    return {.run = {true, "each frame samples another place in the pixel of static surfaces"}};
 }
 
 void Taa::extract(render::ExtractContext& context) {

@@ -52,7 +52,7 @@ class Taa : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "taa"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;
     void finish(render::FinishedFrame& frame) override;

@@ -43,10 +43,10 @@ Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
     : mDevice(device), mSettings(settings), mPipeline(device, describePipeline(false)),
       mMeasuring(device, describePipeline(true)) {}
 
-core::Decision Tonemap::decide(const render::ViewFacts& facts) const {
-    if (!facts.displayWanted)
-        return {false, "only the linear picture is wanted"};
-    return {true, "a picture for a display is wanted"};
+render::Needs Tonemap::decide(const render::DecideContext& context) const {
+    if (!context.facts.displayWanted)
+        return {.run = {false, "only the linear picture is wanted"}};
+    return {.run = {true, "a picture for a display is wanted"}};
 }
 
 void Tonemap::declare(render::PostContext& context) {

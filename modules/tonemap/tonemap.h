@@ -44,7 +44,7 @@ class Tonemap : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void declare(render::PostContext& context) override;
     void finish(render::FinishedFrame& frame) override;
 

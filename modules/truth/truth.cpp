@@ -69,8 +69,11 @@ void Truth::setBatch(uint32_t first, uint32_t count) {
     mCount = count;
 }
 
-core::Decision Truth::decide(const render::ViewFacts&) const {
-    return {true, "every batch is added"};
+render::Needs Truth::decide(const render::DecideContext&) const {
+    return {
+        .run = {true, "every batch is added"},
+        .timedRays = {true, "every ray has its own time"},
+        .exposure = {true, "its rays meet none"}};
 }
 
 Truth::Images Truth::importSums(render::PostContext& context) {

@@ -54,16 +54,7 @@ class Truth : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
-
-    [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts&) const override {
-        return {true, "every ray has its own time"};
-    }
-
-    /// Its rays meet no particles.
-    [[nodiscard]] core::Decision decideParticleDraw(const render::ViewFacts&) const override {
-        return {true, "its rays meet none"};
-    }
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
 
     /// Publishes "error": the standard error per pixel and channel.
     void declare(render::PostContext& context) override;

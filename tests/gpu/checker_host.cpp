@@ -164,8 +164,8 @@ class RowDescriber : public render::PostEffect {
   public:
     [[nodiscard]] std::string name() const override { return "rows"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "rows are taken down"};
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override {
+        return {.run = {true, "rows are taken down"}};
     }
 
     void declare(render::PostContext& context) override {

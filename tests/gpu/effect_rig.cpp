@@ -3,6 +3,7 @@
 
 #include "spirv/accumulate/accumulate.comp.h"
 
+#include "engine/scene/components.h"
 #include "shaders/accumulate/accumulate_shared.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,15 @@ EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, ui
     facts.width = width;
     facts.height = height;
     facts.displayWanted = true;
+}
+
+core::Decision decide(const render::PostEffect& effect, const render::ViewFacts& facts) {
+    scene::World world;
+    const ecs::Entity camera = world.registry.create();
+    world.registry.add(camera, scene::Camera{});
+    world.registry.add(camera, scene::LocalTransform{});
+    const scene::ExposureMotion motion(world, camera, {});
+    return effect.decide({facts, world, {}, {}, motion, {}}).run;
 }
 
 gpu::ComputePipelineDesc describeScalePipeline() {

@@ -27,6 +27,10 @@ struct EffectRig {
     render::PostContext context;
 };
 
+/// Whether the effect runs in a frame of an empty world.
+[[nodiscard]] core::Decision
+decide(const render::PostEffect& effect, const render::ViewFacts& facts);
+
 /// The shader that adds pictures: with index 0, rgb = source's rgb times the scale. Something to
 /// dispatch, pushed AccumulateParams.
 [[nodiscard]] gpu::ComputePipelineDesc describeScalePipeline();

@@ -35,7 +35,7 @@ class Bloom : public test::GpuTest {
         const graph::ImageHandle color = isHalf ? rig.uploadColor(picture) : rig.upload(picture);
         test::EffectRig effect(rig, color, picture.width, picture.height);
         bloom::Bloom bloom(device(), settings);
-        EXPECT_TRUE(bloom.decide(effect.facts).run);
+        EXPECT_TRUE(test::decide(bloom, effect.facts).run);
         bloom.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);
         test::run(rig);
@@ -155,22 +155,22 @@ TEST_F(Bloom, BloomRunsIfTheLastPictureHadAHighlightOrIsUnknown) {
     render::ViewFacts facts;
     facts.width = 640;
     facts.height = 360;
-    EXPECT_TRUE(bloom.decide(facts).run);
+    EXPECT_TRUE(test::decide(bloom, facts).run);
     facts.lastBrightest = 1.51f;
-    EXPECT_TRUE(bloom.decide(facts).run);
+    EXPECT_TRUE(test::decide(bloom, facts).run);
     facts.lastBrightest = 1.5f;
-    EXPECT_FALSE(bloom.decide(facts).run);
-    EXPECT_NE(bloom.decide(facts).reason.find("knee"), std::string::npos);
+    EXPECT_FALSE(test::decide(bloom, facts).run);
+    EXPECT_NE(test::decide(bloom, facts).reason.find("knee"), std::string::npos);
     // Without a threshold all light is scattered; in the dark there is none.
     const bloom::Bloom all(device(), {.share = 0.1f, .threshold = 0.0f});
-    EXPECT_TRUE(all.decide(facts).run);
-    EXPECT_FALSE(bloom::Bloom(device(), {0.0f}).decide(facts).run);
+    EXPECT_TRUE(test::decide(all, facts).run);
+    EXPECT_FALSE(test::decide(bloom::Bloom(device(), {0.0f}), facts).run);
     facts.lastBrightest = 0.0f;
-    EXPECT_FALSE(all.decide(facts).run);
+    EXPECT_FALSE(test::decide(all, facts).run);
     facts = {};
     facts.width = 640;
     facts.height = 7;
-    EXPECT_FALSE(all.decide(facts).run) << "a tiny picture";
+    EXPECT_FALSE(test::decide(all, facts).run) << "a tiny picture";
     for (const glm::uvec3 levels :
          {glm::uvec3(7, 640, 0), {8, 640, 1}, {1920, 1080, 8}, {65536, 65536, 10}})
         EXPECT_EQ(bloom::countLevels(levels.x, levels.y), levels.z);

@@ -66,11 +66,9 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "host"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "the test reads it"};
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override {
+        return {.run = {true, "the test reads it"}, .normals = true};
     }
-
-    [[nodiscard]] bool readsNormals() const override { return true; }
 
     void declare(render::PostContext& context) override {
         struct Data {

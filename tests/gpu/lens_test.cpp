@@ -54,7 +54,7 @@ class LensFilters : public test::GpuTest, public testing::WithParamInterface<con
 
         depth_of_field::DepthOfField depthOfField(device());
         depthOfField.configure({&depth_of_field::getFilter(GetParam()), mTaps});
-        EXPECT_TRUE(depthOfField.decide(effect.facts).run);
+        EXPECT_TRUE(test::decide(depthOfField, effect.facts).run);
         depthOfField.extract(context);
         depthOfField.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);

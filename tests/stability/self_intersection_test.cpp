@@ -32,12 +32,9 @@ class RevealEverywhere : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "reveal everywhere"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override {
-        return {true, "every pixel is traced"};
-    }
-
-    [[nodiscard]] core::Decision decideRays(const render::ViewFacts&) const override {
-        return {true, "it is held against raster"};
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override {
+        return {
+            .run = {true, "every pixel is traced"}, .rays = {true, "it is held against raster"}};
     }
 
     void declare(render::PostContext& context) override {

@@ -17,8 +17,8 @@ class Vignette : public shutter::render::PostEffect {
 
     std::string name() const override { return "vignette"; }
 
-    shutter::core::Decision decide(const shutter::render::ViewFacts&) const override {
-        return {mLoss > 0.0f, "light is lost"};
+    shutter::render::Needs decide(const shutter::render::DecideContext&) const override {
+        return {.run = {mLoss > 0.0f, "light is lost"}};
     }
 
     void declare(shutter::render::PostContext& context) override {

@@ -3,6 +3,7 @@
 
 #include "engine/scene/exposure_motion.h"
 
+#include <span>
 #include <utility>
 
 namespace shutter::motion_blur {
@@ -16,23 +17,31 @@ describeRaster(const scene::World& world, const render::ExtractedRaster& drawn) 
     return extract::makeRasterRecord(world, view, motion, *drawn.frame, view.exposure.rasterTime);
 }
 
+/// \param context DecideContext or ExtractContext
+/// \param taken rows whose blended surfaces are not in the raster
+template <class Context>
 bool isOfFrameBefore(
-    const render::ExtractContext& context, const std::optional<extract::RasterRecord>& record
+    const Context& context,
+    std::span<const uint32_t> taken,
+    const std::optional<extract::RasterRecord>& record
 ) {
     return record &&
            extract::isOfFrameBefore(context.world, context.view, context.motion, *record) &&
-           record->layer == extract::listLayerEntities(context.frame);
+           record->layer == extract::listEntities(context.frame, taken);
 }
 
 } // namespace
 
-bool InstantMotionBuffers::isAgain(const render::ExtractContext& context) const {
+template <class Context>
+bool InstantMotionBuffers::isAgain(const Context& context, std::span<const uint32_t> taken) const {
     return mLast && extract::isOfSameFrame(context.world, context.view, context.motion, *mLast) &&
-           isOfFrameBefore(context, mBefore);
+           isOfFrameBefore(context, taken, mBefore);
 }
 
-bool InstantMotionBuffers::holdsFrameBefore(const render::ExtractContext& context) const {
-    return isOfFrameBefore(context, mLast) || isAgain(context);
+bool InstantMotionBuffers::holdsFrameBefore(
+    const render::DecideContext& context, std::span<const uint32_t> taken
+) const {
+    return isOfFrameBefore(context, taken, mLast) || isAgain(context, taken);
 }
 
 extract::InstantTables InstantMotionBuffers::computeTables(
@@ -41,7 +50,8 @@ extract::InstantTables InstantMotionBuffers::computeTables(
     std::optional<extract::InstantFrame> secondFrame;
     if (const auto& second = context.secondRaster)
         secondFrame.emplace(*second->view->instant, *second->frame, second->view->jitterPx);
-    const extract::RasterRecord* last = isOfFrameBefore(context, mLast) ? &*mLast : nullptr;
+    const extract::RasterRecord* last =
+        isOfFrameBefore(context, context.frame.layerRows, mLast) ? &*mLast : nullptr;
     std::optional<extract::RasterRecord> redrawn;
     if (const auto& drawn = context.lastRaster)
         last = &redrawn.emplace(describeRaster(context.world, *drawn));
@@ -64,7 +74,7 @@ void InstantMotionBuffers::extract(
 ) {
     if (!hasHistory)
         forget();
-    else if (!context.lastRaster && isAgain(context))
+    else if (!context.lastRaster && isAgain(context, context.frame.layerRows))
         stepBack();
     mTables = computeTables(context, instants);
     mInstantCount = instants.count;

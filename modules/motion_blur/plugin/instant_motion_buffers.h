@@ -29,8 +29,9 @@ class InstantMotionBuffers {
         : mDevice(device), mScene(scene), mHistory(device) {}
 
     /// Whether the raster of the frame before the view's is stored, for a frame that stores its
-    /// own.
-    [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
+    /// own. \param taken rows whose blended surfaces are not in the raster
+    [[nodiscard]] bool
+    holdsFrameBefore(const render::DecideContext& context, std::span<const uint32_t> taken) const;
 
     /// Computes a frame's tables.
     /// \param hasHistory the raster of the previous frame has lookups, too, which
@@ -52,7 +53,8 @@ class InstantMotionBuffers {
     computeTables(const render::ExtractContext& context, const Instants& instants) const;
 
     /// Whether the context's frame was the last one and is drawn again: the one before it counts.
-    [[nodiscard]] bool isAgain(const render::ExtractContext& context) const;
+    template <class Context>
+    [[nodiscard]] bool isAgain(const Context& context, std::span<const uint32_t> taken) const;
     /// Discards the newest raster; the one before it becomes the newest.
     void stepBack();
     gpu::Device& mDevice;

@@ -88,10 +88,10 @@ void MotionBlurPlugin::chooseStandIn() {
     mStandIn->method = &getMethod(wanted.method->standIn);
 }
 
-core::Decision MotionBlurPlugin::decide(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::decideRun(const render::ViewFacts& facts) const {
     if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
-    if (seesThroughLens(facts))
+    if (usesLens(facts))
         return {true, "the lens is open"};
     const std::string lens =
         facts.usesLens && settings().method->readsLens ? ", and the lens leaves all in focus" : "";
@@ -102,15 +102,13 @@ core::Decision MotionBlurPlugin::decide(const render::ViewFacts& facts) const {
     return {true, "something in the picture moves during the exposure" + lens};
 }
 
-bool MotionBlurPlugin::seesThroughLens(const render::ViewFacts& facts) const {
+bool MotionBlurPlugin::usesLens(const render::ViewFacts& facts) const {
     const Method& method = *settings().method;
     return method.readsLens && (method.readsInstantMotions ? facts.isDefocused : facts.usesLens);
 }
 
 core::Decision MotionBlurPlugin::decideRays(const render::ViewFacts& facts) const {
     const Method& method = *settings().method;
-    if (method.rays != RayNeed::Any)
-        return {}; // it never does
     if (method.alwaysTraces && method.alwaysTraces(settings()))
         return {true, "an entity may come into sight behind itself"};
     return facts.reveal;
@@ -124,67 +122,61 @@ bool MotionBlurPlugin::onlyKeeps(const render::ViewFacts& facts) const {
     return !facts.pictureWanted && settings().method->readsInstantMotions;
 }
 
-core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts& facts) const {
-    if (settings().method->rays != RayNeed::Query)
-        return {}; // it never does
-    if (onlyKeeps(facts))
-        return {false, kNoPicture};
-    return {true, "its method has rays with times of their own"};
-}
-
-bool MotionBlurPlugin::readsEdges() const {
-    return settings().method->readsInstantMotions;
-}
-
-bool MotionBlurPlugin::readsNormals() const {
-    return settings().method->readsNormal;
-}
-
-core::Decision MotionBlurPlugin::askLayer(const render::ViewFacts&) const {
-    if (!settings().method->readsRaster)
-        return {false, "its method draws them itself"};
-    return {true, "blended surfaces are drawn over the blurred picture"};
-}
-
-core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts& facts) const {
-    if (!settings().method->readsInstantMotions || !settings().secondRaster)
-        return {};
-    if (onlyKeeps(facts))
-        return {false, kNoPicture};
-    return {true, "secondRaster is set"};
-}
-
-core::Decision MotionBlurPlugin::askLastRaster(const render::ExtractContext& context) const {
-    if (!readsHistory())
-        return {};
+core::Decision MotionBlurPlugin::decideLastRaster(
+    const render::DecideContext& context, const render::Needs& needs
+) const {
     if (onlyKeeps(context.facts))
         return {false, kNoPicture};
-    if (mInstantMotions.holdsFrameBefore(context))
+    std::span<const uint32_t> taken;
+    if (needs.movingBlended.run)
+        taken = context.findTakenRows(needs.usesLens);
+    if (mInstantMotions.holdsFrameBefore(context, taken))
         return {false, "the frame before left its own"};
     if (!extract::makeViewBefore(context.world, context.view, context.motion))
         return {false, "the frame before shows something else"};
     return {true, "the frame before left none"};
 }
 
-core::Decision MotionBlurPlugin::decideParticleDraw(const render::ViewFacts& facts) const {
-    if (!(facts.exposureSeconds > 0.0))
-        return {false, "the exposure is 0"};
-    return {true, "particles are drawn over its picture"};
+render::Needs MotionBlurPlugin::decide(const render::DecideContext& context) const {
+    const render::ViewFacts& facts = context.facts;
+    const Method& method = *settings().method;
+    const auto ifShown = [&](const char* reason) -> core::Decision {
+        return onlyKeeps(facts) ? core::Decision{false, kNoPicture} : core::Decision{true, reason};
+    };
+    render::Needs needs;
+    needs.run = decideRun(facts);
+    needs.exposure = {false, "the exposure is 0"};
+    if (facts.exposureSeconds > 0.0)
+        needs.exposure = {true, "particles are drawn over its picture"};
+    if (method.rays == RayNeed::Any)
+        needs.rays = decideRays(facts);
+    if (method.rays == RayNeed::Query)
+        needs.timedRays = ifShown("its method has rays with times of their own");
+    if (method.readsInstantMotions && settings().secondRaster)
+        needs.secondRaster = ifShown("secondRaster is set");
+    needs.movingBlended = {false, "its method draws them itself"};
+    if (method.readsRaster)
+        needs.movingBlended = {true, "blended surfaces are drawn over the blurred picture"};
+    needs.usesLens = usesLens(facts);
+    needs.edges = method.readsInstantMotions;
+    needs.normals = method.readsNormal;
+    if (needs.run.run && readsHistory())
+        needs.lastRaster = decideLastRaster(context, needs);
+    return needs;
 }
 
 void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->readsInstantMotions)
         mInstantMotions.extract(
             context,
-            {countInstants(settings(), seesThroughLens(context.facts)),
-             seesThroughLens(context.facts)},
+            {countInstants(settings(), usesLens(context.facts)), usesLens(context.facts)},
             settings().history
         );
     extract::LayerLimits limits;
     if (settings().method->sampleUnit == SampleUnit::Instants)
         limits.instants = settings().sampleCount;
     limits.findsInstants = settings().method->readsInstantMotions;
-    limits.hasLens = seesThroughLens(context.facts);
+    limits.hasLens = usesLens(context.facts);
     mBlended.extract(context, limits);
 }
 

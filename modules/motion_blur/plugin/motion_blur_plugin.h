@@ -49,33 +49,13 @@ class MotionBlurPlugin : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
-    /// Skipped when nothing moves or the exposure is 0; no budget skips it.
-    [[nodiscard]] core::Decision decide(const render::ViewFacts& facts) const override;
-
-    /// For methods of RayNeed::Any.
-    [[nodiscard]] core::Decision decideRays(const render::ViewFacts& facts) const override;
-    /// For methods of RayNeed::Query, in frames that are shown.
-    [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
-
-    /// True for methods with lookups.
-    [[nodiscard]] bool readsEdges() const override;
-    [[nodiscard]] bool readsNormals() const override;
-    /// For methods that blur the raster.
-    [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
-    /// Whether its samples have places of the lens.
-    [[nodiscard]] bool seesThroughLens(const render::ViewFacts& facts) const override;
-
-    /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are
-    /// shown.
-    [[nodiscard]] core::Decision askSecondRaster(const render::ViewFacts& facts) const override;
-
-    /// With MotionBlurSettings::history, for methods that read it, in frames that are shown and
-    /// follow one that left no raster: nothing moved in it, another method drew it, or it had
-    /// another size.
-    [[nodiscard]] core::Decision askLastRaster(const render::ExtractContext& context
-    ) const override;
-    /// Where there is an exposure, whether or not anything else moves in it.
-    [[nodiscard]] core::Decision decideParticleDraw(const render::ViewFacts& facts) const override;
+    /// Skipped when nothing moves or the exposure is 0; no budget skips it. By Method: rays for
+    /// RayNeed::Any, timed rays for RayNeed::Query; edges and history for lookups; blended surfaces
+    /// leave the raster where that is blurred. The second raster is MotionBlurSettings' own wish.
+    /// The last raster is drawn where the previous frame left none: nothing moved in it, another
+    /// method drew it, or it had another size. Frames that are not shown need no second or last
+    /// raster and no timed rays.
+    [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
 
     void declare(render::PostContext& context) override;
@@ -100,6 +80,14 @@ class MotionBlurPlugin : public render::PostEffect {
 
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
+
+    [[nodiscard]] core::Decision decideRun(const render::ViewFacts& facts) const;
+    [[nodiscard]] core::Decision decideRays(const render::ViewFacts& facts) const;
+    [[nodiscard]] core::Decision
+    decideLastRaster(const render::DecideContext& context, const render::Needs& needs) const;
+
+    /// Whether the next frame's method draws its samples from places of the lens.
+    [[nodiscard]] bool usesLens(const render::ViewFacts& facts) const;
 
     /// Whether the next frame's method reads the raster of the previous one.
     [[nodiscard]] bool readsHistory() const;

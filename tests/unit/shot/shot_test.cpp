@@ -247,7 +247,7 @@ PassGroup groupIn(const char* method, PassOwner owner) {
 class PlainEffect : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "plain"; }
 
-    [[nodiscard]] core::Decision decide(const render::ViewFacts&) const override { return {}; }
+    [[nodiscard]] render::Needs decide(const render::DecideContext&) const override { return {}; }
 
     void declare(render::PostContext&) override {}
 };
