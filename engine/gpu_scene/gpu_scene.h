@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/idle_counter.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/device.h"
@@ -58,6 +59,12 @@ class GpuScene {
     /// destroyed first.
     void releaseBlas();
 
+    /// Must be called each frame: releases them once they were not wanted for a while.
+    void releaseIdleBlas(bool wanted) {
+        if (mBlasIdle.advance(wanted))
+            releaseBlas();
+    }
+
     /// Null (false) for a mesh without triangles that rays can meet.
     [[nodiscard]] const gpu::AccelerationStructure& blas(uint32_t mesh) const {
         return mBlas[mesh];
@@ -94,6 +101,7 @@ class GpuScene {
     std::vector<gpu::AccelerationStructure> mMeshScenes;
     std::vector<uint32_t> mFirstVertex; ///< one per geometry
     bool mBlasBuilt = false;
+    core::IdleCounter mBlasIdle;
 };
 
 } // namespace shutter::gpu_scene

@@ -50,15 +50,11 @@ void Explainer::decide(ExplainedKind kind, std::string subject, core::Decision d
     mDecided.push_back({kind, std::move(subject), std::move(decision)});
 }
 
-void Explainer::beginPasses(const graph::Graph& graph, PassOwner owner, std::string reason) {
-    mRanges.push_back({graph.passes().size(), owner, std::move(reason)});
-}
-
 const Explainer::PassRange* Explainer::findRange(size_t pass) const {
-    const auto next = std::find_if(mRanges.begin(), mRanges.end(), [&](const PassRange& range) {
-        return range.first > pass;
+    const auto own = std::find_if(mRanges.rbegin(), mRanges.rend(), [&](const PassRange& range) {
+        return range.first <= pass && pass < range.end;
     });
-    return next == mRanges.begin() ? nullptr : &*std::prev(next);
+    return own == mRanges.rend() ? nullptr : &*own;
 }
 
 std::vector<PassOwner> Explainer::listOwners(const graph::Plan& plan) const {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::render {
@@ -49,9 +50,17 @@ findDecision(std::span<const Explanation> explanations, const std::string& subje
 class Explainer {
   public:
     void decide(ExplainedKind kind, std::string subject, core::Decision decision);
-    /// Passes declared from here on work for `owner` and run for `reason`, unless something else
-    /// was decided about them.
-    void beginPasses(const graph::Graph& graph, PassOwner owner, std::string reason);
+
+    /// Calls `declare`: passes that it declares work for `owner` and run for `reason`, unless
+    /// something else was decided about them.
+    template <class Declare>
+    decltype(auto) declareOwned(
+        const graph::Graph& graph, PassOwner owner, std::string reason, Declare&& declare
+    ) {
+        const Owned owned(*this, graph, owner, std::move(reason));
+        return std::forward<Declare>(declare)();
+    }
+
     /// Owners of the plan's passes, in execution order.
     [[nodiscard]] std::vector<PassOwner> listOwners(const graph::Plan& plan) const;
     /// Effects and work as decided; with `passes`, the passes too: those of the plan in execution
@@ -62,15 +71,33 @@ class Explainer {
   private:
     struct PassRange {
         size_t first = 0; ///< index into Graph::passes()
+        size_t end = 0;
         PassOwner owner = PassOwner::Scene;
         std::string reason;
     };
 
-    /// Null for passes declared before the first beginPasses().
+    /// Ends its range when it goes out of scope.
+    struct Owned {
+        Owned(Explainer& all, const graph::Graph& declared, PassOwner owner, std::string reason)
+            : explainer(all), graph(declared), index(all.mRanges.size()) {
+            all.mRanges.push_back({graph.passes().size(), SIZE_MAX, owner, std::move(reason)});
+        }
+
+        ~Owned() { explainer.mRanges[index].end = graph.passes().size(); }
+
+        Owned(const Owned&) = delete;
+        Owned& operator=(const Owned&) = delete;
+
+        Explainer& explainer;
+        const graph::Graph& graph;
+        size_t index;
+    };
+
+    /// The innermost. Null for passes that were not declared by declareOwned().
     [[nodiscard]] const PassRange* findRange(size_t pass) const;
 
     std::vector<Explanation> mDecided;
-    std::vector<PassRange> mRanges; ///< by rising first
+    std::vector<PassRange> mRanges; ///< by rising first, the outer before the inner
 };
 
 } // namespace shutter::render

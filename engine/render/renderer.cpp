@@ -75,6 +75,9 @@ decideParticles(const extract::ParticleTables& particles, const extract::ViewReq
 /// Name of the intermediate GBuffer::normal.
 constexpr const char* kNormals = "normal";
 
+/// Reason of the passes that do so.
+constexpr const char* kReadBack = "its picture is read back";
+
 graph::ImageHandle
 declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t height) {
     struct Data {
@@ -98,16 +101,12 @@ declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t hei
 
 } // namespace
 
-Renderer::Slot::Slot(gpu::Device& device)
-    : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
-      timedScene(device), secondRaster(device), lastRaster(device),
-      shadows(std::make_unique<ShadowMaps>(device)), particles(device) {}
-
-Renderer::Slot::~Slot() = default;
-
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene),
-      mParticlePass(device, mScene), mPool(device) {
+      mParticlePass(device, mScene), mPool(device), mDeformation(device, framesInFlight),
+      mFrameTlas(device, framesInFlight), mTimedScene(device, framesInFlight),
+      mSecondRaster(device, framesInFlight), mLastRaster(device, framesInFlight),
+      mShadows(device, framesInFlight) {
     SHUTTER_CHECK(
         framesInFlight >= 1 && framesInFlight <= gpu::kMaxFramesInFlight,
         "{} frames in flight",
@@ -120,7 +119,6 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t fr
 Renderer::~Renderer() = default;
 
 void Renderer::declareTlas(
-    Slot& slot,
     graph::Graph& graph,
     extract::ExtractedFrame& frame,
     const gpu_scene::DeformedMeshes& shapes,
@@ -129,7 +127,8 @@ void Renderer::declareTlas(
     const double start = nowMilliseconds();
     extract::assignInstanceMasks(frame, mScene.layout());
     mScene.buildAllBlas();
-    const rays::TlasHandles levels = slot.frameTlas->declare(graph, frame, mScene, shapes);
+    const rays::TlasHandles levels =
+        mFrameTlas.use(mNextSlot).declare(graph, frame, mScene, shapes);
     rays.tlasBuffer = levels.buffer;
     rays.movingTlasBuffer = levels.movingBuffer;
     rays.deformedBlasBuffer = levels.deformedBuffer;
@@ -181,11 +180,13 @@ void Renderer::publishParticles(
     if (!intermediates.isWanted(kName) || parts.particles.empty())
         return;
     const extract::ViewRequest& view = parts.request.view;
-    parts.explainer.beginPasses(parts.graph, PassOwner::Display, "particles are shown alone");
-    const auto black = declareBlack(parts.graph, "black", view.width, view.height);
     const auto& jitterPx = parts.running.particles.run ? parts.particleJitterPx : view.jitterPx;
-    // Without instants: they bring the picture that lies behind.
-    intermediates.publish(kName, declareParticles(parts, scene, black, jitterPx, std::nullopt));
+    parts.explainer.declareOwned(parts.graph, PassOwner::Display, "particles are shown alone", [&] {
+        const auto black = declareBlack(parts.graph, "black", view.width, view.height);
+        // Without instants: they bring the picture that lies behind.
+        const auto alone = declareParticles(parts, scene, black, jitterPx, std::nullopt);
+        intermediates.publish(kName, alone);
+    });
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -292,12 +293,22 @@ core::Status Renderer::submitFrame(
     );
     if (shadows.shadows.run)
         context.shadowRevision = shadows.casterRevision;
-    SHUTTER_TRY(slot.shadows->prepare(std::move(shadows), frame));
     const auto particles = extractParticles(context, request, running);
     if (!particles)
         return particles.error();
+    if (request.wantReasons) {
+        explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
+        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
+        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
+        explainer.decide(
+            ExplainedKind::Work, "particles", decideParticles(particles.value(), request.view)
+        );
+    }
+    ShadowMaps* const maps = shadows.shadows.run ? &mShadows.use(pending.slot) : nullptr;
+    if (maps != nullptr)
+        SHUTTER_TRY(maps->prepare(std::move(shadows), frame));
     context.rasterHasParticles = !running.particles.run && !particles.value().empty();
-    SHUTTER_TRY(extractForEffects(slot, context, particles.value(), running));
+    SHUTTER_TRY(extractForEffects(context, particles.value(), running));
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -307,24 +318,34 @@ core::Status Renderer::submitFrame(
          request,
          facts,
          frame,
+         maps,
          moving ? &*moving : nullptr,
          particles.value(),
          context.colorJitterPx,
          running,
          explainer}
     );
-    if (request.wantTrace)
-        SHUTTER_TRY(pending.trace.declare(graph, slot.readback, mPool.requirementFunction()));
+    const auto fail = [&](const core::Error& error) {
+        mFrameTlas.drop(pending.slot);
+        mTimedScene.drop(pending.slot);
+        return error;
+    };
+    if (request.wantTrace) {
+        const core::Status traced =
+            explainer.declareOwned(graph, PassOwner::Display, kReadBack, [&] {
+                return pending.trace.declare(graph, slot.readback, mPool.requirementFunction());
+            });
+        if (!traced)
+            return fail(traced.error());
+    }
     statistics.measures["entity table ms"] = mTableMilliseconds;
     statistics.measures["TLAS ms"] = mTlasMilliseconds;
     statistics.counters["entity rows written"] = mWritten.rows;
     statistics.counters["entity motions written"] = mWritten.motions;
     mPool.keepFor(request.view.width, request.view.height);
     auto plan = graph::execute(graph, slot.frame, mPool);
-    if (!plan) {
-        slot.frameTlas.emplace(mDevice); // the declared build did not run
-        return plan.error();
-    }
+    if (!plan)
+        return fail(plan.error());
     slot.frame.submit(pending.tickets.semaphores);
     statistics.cpuMilliseconds = nowMilliseconds() - pending.startMilliseconds;
     statistics.transientBytes = mPool.heldBytes();
@@ -334,7 +355,7 @@ core::Status Renderer::submitFrame(
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
     if (!effects.empty() && !request.measuresMotion)
-        releaseIdle(frame, running);
+        releaseIdle(running);
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();
     return {};
@@ -377,90 +398,110 @@ FrameResult Renderer::finishFrame() {
 }
 
 Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
-    auto& [slot, graph, request, facts, frame, moving, particles, jitter, running, explainer] =
-        parts;
+    graph::Graph& graph = parts.graph;
+    const FrameRequest& request = parts.request;
+    extract::ExtractedFrame& frame = parts.frame;
+    RunningEffects& running = parts.running;
+    const auto declareOwned = [&](PassOwner owner, const std::string& reason, const auto& declare) {
+        return parts.explainer.declareOwned(parts.graph, owner, reason, declare);
+    };
     DeclaredScene scene;
-    explainer.beginPasses(graph, PassOwner::Scene, "a skin, morph target or wave is drawn");
-    scene.shapes = slot.deformation->declare(graph, frame, mScene);
+    if (!frame.deformed.empty())
+        scene.shapes = declareOwned(PassOwner::Scene, "a skin, morph target or wave is drawn", [&] {
+            return mDeformation.use(mNextSlot).declare(graph, frame, mScene);
+        });
     std::vector<shader::Geometry> deformed = scene.shapes.rows;
     const size_t firstDeformedGeometry = mScene.geometryRows().size() + deformed.size();
-    if (moving) {
+    if (parts.moving) {
         mScene.buildAllBlas(); // instances of deformed meshes need their masks
         const std::vector<shader::Geometry>& keyed =
-            slot.timedScene->prepareDeformed(*moving, mScene);
+            mTimedScene.use(mNextSlot).prepareDeformed(*parts.moving, mScene);
         deformed.insert(deformed.end(), keyed.begin(), keyed.end());
     }
-    explainer.beginPasses(graph, PassOwner::Rays, running.rays.reason);
     mTlasMilliseconds = 0.0;
     if (running.rays.run)
-        declareTlas(slot, graph, frame, scene.shapes, scene.rays);
+        declareOwned(PassOwner::Rays, running.rays.reason, [&] {
+            declareTlas(graph, frame, scene.shapes, scene.rays);
+        });
     const double start = nowMilliseconds();
-    mWritten = slot.tables.updateEntities(frame);
+    mWritten = parts.slot.tables.updateEntities(frame);
     mTableMilliseconds = nowMilliseconds() - start;
-    scene.tables = slot.tables.upload(frame, request.view, mScene, deformed);
+    scene.tables = parts.slot.tables.upload(frame, request.view, mScene, deformed);
     graph::RayScene& rays = scene.rays;
     rays.frameConstants = scene.tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    explainer.beginPasses(graph, PassOwner::Rays, running.timedRays.reason);
-    if (moving) {
-        scene.timedRays = slot.timedScene->declare(
-            graph,
-            *moving,
-            frame,
-            mScene,
-            static_cast<uint32_t>(firstDeformedGeometry),
-            rays.frameConstants
-        );
+    if (parts.moving) {
+        scene.timedRays = declareOwned(PassOwner::Rays, running.timedRays.reason, [&] {
+            return mTimedScene.use(mNextSlot).declare(
+                graph,
+                *parts.moving,
+                frame,
+                mScene,
+                static_cast<uint32_t>(firstDeformedGeometry),
+                rays.frameConstants
+            );
+        });
         scene.timedRays.deformedBuffer = scene.shapes.buffer;
     }
-    if (mShadowPipelines) {
-        explainer.beginPasses(graph, PassOwner::Scene, "what shadow maps show has changed");
-        rays.shadowBuffer = slot.shadows->declare(
-            graph, *mShadowPipelines, frame, mScene, scene.shapes.buffer, rays.frameConstants
-        );
-    }
+    if (parts.shadows != nullptr)
+        rays.shadowBuffer =
+            declareOwned(PassOwner::Scene, "what shadow maps show has changed", [&] {
+                return parts.shadows->declare(
+                    graph,
+                    *mShadowPipelines,
+                    frame,
+                    mScene,
+                    scene.shapes.buffer,
+                    rays.frameConstants
+                );
+            });
     scene.shadowMaps = rays.shadowBuffer;
-    explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     const std::array reads{scene.shapes.buffer, rays.shadowBuffer};
     const bool readsNormals = running.readsNormals || request.intermediates.contains(kNormals) ||
                               request.shownIntermediates.contains(kNormals);
-    scene.gbuffer = mGBufferPass.declare(
-        graph,
-        "G-buffer",
-        {frame,
-         mScene,
-         reads,
-         rays.frameConstants,
-         running.samplesEdges,
-         running.readsEdges,
-         readsNormals,
-         running.confusion}
-    );
-    if (!running.particles.run && !particles.empty())
-        scene.gbuffer.color = declareParticles(
-            parts, scene, scene.gbuffer.color, request.view.jitterPx, std::nullopt
+    declareOwned(PassOwner::Scene, "the picture is drawn", [&] {
+        scene.gbuffer = mGBufferPass.declare(
+            graph,
+            "G-buffer",
+            {frame,
+             mScene,
+             reads,
+             rays.frameConstants,
+             running.samplesEdges,
+             running.readsEdges,
+             readsNormals,
+             running.confusion}
         );
+        if (!running.particles.run && !parts.particles.empty())
+            scene.gbuffer.color = declareParticles(
+                parts, scene, scene.gbuffer.color, request.view.jitterPx, std::nullopt
+            );
+    });
     return scene;
 }
 
 void Renderer::declareEffects(
     const FrameParts& parts, const DeclaredScene& scene, PostContext& context
 ) {
-    Slot& slot = parts.slot;
     graph::Graph& graph = parts.graph;
     RunningEffects& running = parts.running;
-    Explainer& explainer = parts.explainer;
-    const auto declareOther = [&](OtherRaster& other, const char* name) {
-        return other.declare(
-            graph,
-            name,
-            mScene,
-            mGBufferPass,
-            mShadowPipelines.get(),
-            running.readsEdges,
-            running.confusion
-        );
+    const auto declareOther = [&](PerSlot<OtherRaster>& rasters,
+                                  const char* name,
+                                  const PostEffect& reader,
+                                  const core::Decision& decision) {
+        return parts.explainer.declareOwned(graph, reader.owner(), decision.reason, [&] {
+            return rasters.use(context.slot)
+                .declare(
+                    graph,
+                    name,
+                    mScene,
+                    mGBufferPass,
+                    mShadowPipelines.get(),
+                    running.readsEdges,
+                    running.confusion
+                );
+        });
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;
@@ -468,47 +509,39 @@ void Renderer::declareEffects(
         if (!running.particles.run || parts.particles.empty() ||
             running.particlesAt != effectsBefore)
             return;
-        explainer.beginPasses(graph, PassOwner::Blur, running.particles.reason);
-        context.color = declareParticles(
-            parts, scene, context.color, parts.particleJitterPx, context.particleInstants
-        );
+        parts.explainer.declareOwned(graph, PassOwner::Blur, running.particles.reason, [&] {
+            context.color = declareParticles(
+                parts, scene, context.color, parts.particleJitterPx, context.particleInstants
+            );
+        });
     };
     declareOwnParticles(0);
     for (RunningEffect& one : running.effects) {
         // Not counted as the effect's own: the cost of an occasional frame does not predict later
         // frames, which the budget is for.
-        if (one.readsLastRaster && !last) {
-            explainer.beginPasses(graph, one.effect->owner(), running.lastRaster.reason);
-            last = declareOther(*slot.lastRaster, "last G-buffer");
-        }
+        if (one.readsLastRaster && !last)
+            last = declareOther(mLastRaster, "last G-buffer", *one.effect, running.lastRaster);
         one.firstPass = graph.passes().size();
-        if (one.readsSecondRaster && !second) {
-            explainer.beginPasses(graph, one.effect->owner(), running.secondRaster.reason);
-            second = declareOther(*slot.secondRaster, "second G-buffer");
-        }
+        if (one.readsSecondRaster && !second)
+            second =
+                declareOther(mSecondRaster, "second G-buffer", *one.effect, running.secondRaster);
         context.secondRaster = one.readsSecondRaster ? &*second : nullptr;
         context.lastRaster = one.readsLastRaster ? &*last : nullptr;
-        explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
-        one.effect->declare(context);
+        parts.explainer.declareOwned(graph, one.effect->owner(), one.effect->name() + " runs", [&] {
+            one.effect->declare(context);
+        });
         one.endPass = graph.passes().size();
         declareOwnParticles(static_cast<size_t>(&one - running.effects.data()) + 1);
     }
 }
 
 Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
-    auto& [slot, graph, request, facts, frame, moving, particles, jitter, running, explainer] =
-        parts;
-    const extract::ShadowPlan& shadows = slot.shadows->plan();
+    graph::Graph& graph = parts.graph;
+    const FrameRequest& request = parts.request;
+    extract::ExtractedFrame& frame = parts.frame;
+    RunningEffects& running = parts.running;
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
         mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
-    if (request.wantReasons) {
-        explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
-        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
-        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
-        explainer.decide(
-            ExplainedKind::Work, "particles", decideParticles(particles, request.view)
-        );
-    }
     const DeclaredScene scene = declareScene(parts);
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
@@ -520,29 +553,30 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .view = request.view,
         .frame = frame,
         .shapes = scene.shapes,
-        .facts = facts,
+        .facts = parts.facts,
         .gbuffer = scene.gbuffer,
         .rays = running.rays.run ? &scene.rays : nullptr,
-        .timedRays = moving ? &scene.timedRays : nullptr,
+        .timedRays = parts.moving ? &scene.timedRays : nullptr,
         .color = scene.gbuffer.color,
         .intermediates = intermediates,
         .shadowMaps = scene.shadowMaps,
         .response = scene.tables.response,
         .frameConstants = scene.tables.constants,
-        .explainer = explainer,
+        .explainer = parts.explainer,
         .slot = mNextSlot};
     declareEffects(parts, scene, context);
-    explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
-    Tickets tickets;
-    tickets.semaphores = context.semaphores;
-    for (const auto& [name, image] : intermediates.images())
-        if (request.intermediates.contains(name))
-            tickets.intermediates[name] = slot.readback.add(graph, name, image);
-    if (request.wantColor)
-        tickets.color = slot.readback.add(graph, "color", context.color);
-    if (request.wantDisplay && context.display.isValid())
-        tickets.display = slot.readback.add(graph, "display", context.display);
-    return tickets;
+    return parts.explainer.declareOwned(graph, PassOwner::Display, kReadBack, [&] {
+        Tickets tickets;
+        tickets.semaphores = context.semaphores;
+        for (const auto& [name, image] : intermediates.images())
+            if (request.intermediates.contains(name))
+                tickets.intermediates[name] = parts.slot.readback.add(graph, name, image);
+        if (request.wantColor)
+            tickets.color = parts.slot.readback.add(graph, "color", context.color);
+        if (request.wantDisplay && context.display.isValid())
+            tickets.display = parts.slot.readback.add(graph, "display", context.display);
+        return tickets;
+    });
 }
 
 } // namespace shutter::render

@@ -18,6 +18,7 @@
 #include "engine/render/other_raster.h"
 #include "engine/render/particles.h"
 #include "engine/render/pass_trace.h"
+#include "engine/render/per_slot.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
@@ -71,27 +72,6 @@ struct FrameResult {
     FrameStatistics statistics;
     std::string dump;
     std::vector<WrittenImage> trace;
-};
-
-/// Frames after which unused memory is freed: a short pause causes no reallocation, and a scene
-/// that no longer needs the memory frees it.
-inline constexpr uint32_t kFramesKept = 120;
-
-/// Counts consecutive frames in which something was not wanted.
-class IdleCounter {
-  public:
-    /// Must be called each frame. \return true once: in the kFramesKept-th frame in a row in which
-    /// it was not wanted
-    bool advance(bool wanted) {
-        if (wanted)
-            mIdle = 0;
-        else if (mIdle <= kFramesKept)
-            ++mIdle;
-        return mIdle == kFramesKept;
-    }
-
-  private:
-    uint32_t mIdle = 0;
 };
 
 /// Longest motion in a picture during its exposure.
@@ -190,19 +170,12 @@ class Renderer {
 
     /// Resources of one frame in flight.
     struct Slot {
-        explicit Slot(gpu::Device& device);
-        ~Slot();
+        explicit Slot(gpu::Device& device)
+            : frame(device), readback(device), tables(device), particles(device) {}
 
         gpu::Frame frame;
         Readback readback;
         FrameTables tables;
-        // Recreated after releaseIdle().
-        std::optional<gpu_scene::DeformationPass> deformation;
-        std::optional<rays::FrameTlas> frameTlas;
-        std::optional<rays::TimedScene> timedScene;
-        std::optional<OtherRaster> secondRaster;
-        std::optional<OtherRaster> lastRaster;
-        std::unique_ptr<ShadowMaps> shadows;
         ParticleBuffer particles;
     };
 
@@ -213,6 +186,7 @@ class Renderer {
         const FrameRequest& request;
         const ViewFacts& facts;
         extract::ExtractedFrame& frame;
+        ShadowMaps* shadows;                ///< null: no light casts any
         const extract::TimedTables* moving; ///< null: no time-sampled rays
         const extract::ParticleTables& particles;
         math::dvec2 particleJitterPx; ///< of the colour that they are drawn on after effects
@@ -263,7 +237,6 @@ class Renderer {
     );
     /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
-        Slot& slot,
         ExtractContext& context,
         const extract::ParticleTables& particles,
         const RunningEffects& running
@@ -292,10 +265,9 @@ class Renderer {
         std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
     /// Frees resources that no frame used for a while.
-    void releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running);
+    void releaseIdle(const RunningEffects& running);
 
     void declareTlas(
-        Slot& slot,
         graph::Graph& graph,
         extract::ExtractedFrame& frame,
         const gpu_scene::DeformedMeshes& shapes,
@@ -312,16 +284,15 @@ class Renderer {
     bool mWasDefocused = false;                ///< the last frame
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight
     uint32_t mNextSlot = 0;
+    PerSlot<gpu_scene::DeformationPass> mDeformation;
+    PerSlot<rays::FrameTlas> mFrameTlas;
+    PerSlot<rays::TimedScene> mTimedScene;
+    PerSlot<OtherRaster> mSecondRaster;
+    PerSlot<OtherRaster> mLastRaster;
+    PerSlot<ShadowMaps> mShadows;
     std::deque<PendingFrame> mPending;                 ///< oldest first
     std::optional<LongestMotion> mLongestMotion;       ///< made by the first cap
     std::unique_ptr<ShadowPipelines> mShadowPipelines; ///< made on the first request for shadows
-    IdleCounter mDeformationIdle;
-    IdleCounter mRaysIdle;
-    IdleCounter mTimedRaysIdle;
-    IdleCounter mSecondRasterIdle;
-    IdleCounter mLastRasterIdle;
-    IdleCounter mBlasIdle;
-    IdleCounter mShadowsIdle;
     // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;

@@ -80,10 +80,7 @@ Renderer::RunningEffects Renderer::joinNeeds(
 }
 
 core::Status Renderer::extractForEffects(
-    Slot& slot,
-    ExtractContext& context,
-    const extract::ParticleTables& particles,
-    const RunningEffects& running
+    ExtractContext& context, const extract::ParticleTables& particles, const RunningEffects& running
 ) {
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.layerRows);
@@ -91,13 +88,12 @@ core::Status Renderer::extractForEffects(
     extract::ViewRequest view = extract::withoutStaticSamples(context.view);
     view.samplesEdges = running.samplesEdges; // as this frame is drawn
     if (running.secondRaster.run)
-        SHUTTER_TRY(
-            slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(view), hidden)
-        );
+        SHUTTER_TRY(mSecondRaster.use(context.slot)
+                        .extract(context.world, layout, makeViewOfOtherEnd(view), hidden));
     if (running.lastRaster.run) {
         const auto before = extract::makeViewBefore(context.world, view, context.motion);
         SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
-        SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before, hidden));
+        SHUTTER_TRY(mLastRaster.use(context.slot).extract(context.world, layout, *before, hidden));
     }
     for (size_t i = 0; i < running.effects.size(); ++i) {
         const RunningEffect& one = running.effects[i];
@@ -106,9 +102,9 @@ core::Status Renderer::extractForEffects(
         context.secondRaster.reset();
         context.lastRaster.reset();
         if (one.readsSecondRaster)
-            context.secondRaster = slot.secondRaster->extracted();
+            context.secondRaster = mSecondRaster.use(context.slot).extracted();
         if (one.readsLastRaster)
-            context.lastRaster = slot.lastRaster->extracted();
+            context.lastRaster = mLastRaster.use(context.slot).extracted();
         one.effect->extract(context);
     }
     return {};
@@ -133,31 +129,15 @@ std::vector<Renderer::PendingEffect> Renderer::listPending(
     return pending;
 }
 
-void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running) {
+void Renderer::releaseIdle(const RunningEffects& running) {
+    mDeformation.endFrame();
+    mFrameTlas.endFrame();
+    mTimedScene.endFrame();
+    mSecondRaster.endFrame();
+    mLastRaster.endFrame();
+    mShadows.endFrame();
     // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
-    const bool anyRays = running.mayTrace || running.timedRays.run;
-    const bool deformationIdle = mDeformationIdle.advance(!frame.deformed.empty());
-    const bool raysIdle = mRaysIdle.advance(running.rays.run);
-    const bool timedRaysIdle = mTimedRaysIdle.advance(running.timedRays.run);
-    const bool secondRasterIdle = mSecondRasterIdle.advance(running.secondRaster.run);
-    const bool lastRasterIdle = mLastRasterIdle.advance(running.lastRaster.run);
-    for (const auto& slot : mSlots) {
-        if (deformationIdle)
-            slot->deformation.emplace(mDevice);
-        if (raysIdle)
-            slot->frameTlas.emplace(mDevice);
-        if (timedRaysIdle)
-            slot->timedScene.emplace(mDevice);
-        if (secondRasterIdle)
-            slot->secondRaster.emplace(mDevice);
-        if (lastRasterIdle)
-            slot->lastRaster.emplace(mDevice);
-    }
-    if (mShadowsIdle.advance((frame.constants.flags & shader::kFrameShadows) != 0))
-        for (const auto& slot : mSlots)
-            slot->shadows = std::make_unique<ShadowMaps>(mDevice);
-    if (mBlasIdle.advance(anyRays))
-        mScene.releaseBlas();
+    mScene.releaseIdleBlas(running.mayTrace || running.timedRays.run);
 }
 
 } // namespace shutter::render

@@ -142,7 +142,7 @@ TEST_F(DemandLaw, UnusedResourcesAreFreedAfterAWhile) {
     // Pipelines and the read-back of counters stay; they know no picture's size.
     EXPECT_GT(device().living().accelerationStructures, still.accelerationStructures);
     // One more: retired objects are freed when the next frame is done.
-    for (uint32_t i = 0; i <= render::kFramesKept; ++i)
+    for (uint32_t i = 0; i <= core::kFramesKept; ++i)
         (void)frames.draw(frameShot("hybrid", 0.0));
     device().collect();
     EXPECT_EQ(device().living().accelerationStructures, still.accelerationStructures);

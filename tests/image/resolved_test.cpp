@@ -759,7 +759,7 @@ TEST_F(Resolved, UnusedHistoryIsFreedAfterAWhile) {
     const uint32_t without = device().living().images;
     (void)frames.at(2);
     (void)frames.at(3);
-    for (uint32_t i = 0; i <= render::kFramesKept; ++i)
+    for (uint32_t i = 0; i <= core::kFramesKept; ++i)
         (void)frames.at(int(i % 2), {.method = "gather"}); // in which the box is in the picture
     device().collect();
     EXPECT_EQ(device().living().images, without);

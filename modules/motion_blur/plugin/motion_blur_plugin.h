@@ -2,6 +2,7 @@
 // The motion blur's place in this engine's frame.
 #pragma once
 
+#include "engine/core/idle_counter.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/budget.h"
@@ -102,7 +103,7 @@ class MotionBlurPlugin : public render::PostEffect {
     std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     InstantMotionBuffers mInstantMotions;
     BlendedSurfaces mBlended;
-    render::IdleCounter mHistoryIdle;
+    core::IdleCounter mHistoryIdle;
     MotionBlur mEffect;
 };
 

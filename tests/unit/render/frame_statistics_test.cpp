@@ -95,32 +95,39 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     auto kept = graph.createBuffer("kept", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     auto unread = graph.createBuffer("unread", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     explainer.decide(ExplainedKind::Effect, "blur", {true, "something moves"});
-    explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
-    addPass(graph, "draw", kept);
-    explainer.beginPasses(graph, PassOwner::Rays, "nobody declared a pass for this");
-    explainer.beginPasses(graph, PassOwner::Blur, "blur runs");
-    addPass(graph, "blur", kept);
-    addPass(graph, "lost", unread);
+    const auto declare = [&](PassOwner owner, const char* reason, auto&& passes) {
+        explainer.declareOwned(graph, owner, reason, passes);
+    };
+    declare(PassOwner::Scene, "the picture is drawn", [&] { addPass(graph, "draw", kept); });
+    declare(PassOwner::Rays, "nobody declared a pass for this", [] {});
+    declare(PassOwner::Blur, "blur runs", [&] {
+        addPass(graph, "blur", kept);
+        declare(PassOwner::Other, "it is lost", [&] { addPass(graph, "lost", unread); });
+        addPass(graph, "blur again", kept);
+    });
+    addPass(graph, "nobody's", kept);
     explainer.decide(ExplainedKind::Pass, "rays", {false, "only sky lies behind"});
     graph.markOutput(kept);
     const graph::Plan plan = compile(graph);
 
     const auto all = explainer.finish(graph, plan, true);
-    ASSERT_EQ(all.size(), 5u);
+    ASSERT_EQ(all.size(), 7u);
     EXPECT_EQ(all[0].subject, "blur");
     EXPECT_EQ(all[0].kind, ExplainedKind::Effect);
     EXPECT_EQ(all[1].subject, "draw");
     EXPECT_EQ(describe(all[1].decision), "ran: the picture is drawn");
     EXPECT_EQ(all[2].kind, ExplainedKind::Pass);
     EXPECT_EQ(describe(all[2].decision), "ran: blur runs");
-    EXPECT_EQ(describe(all[3].decision), "skipped: only sky lies behind");
-    EXPECT_EQ(all[4].subject, "lost");
-    EXPECT_FALSE(all[4].decision.run);
-    EXPECT_FALSE(all[4].decision.reason.empty());
+    EXPECT_EQ(describe(all[3].decision), "ran: blur runs") << "after passes within its own";
+    EXPECT_EQ(describe(all[4].decision), "ran: the frame needs it");
+    EXPECT_EQ(describe(all[5].decision), "skipped: only sky lies behind");
+    EXPECT_EQ(all[6].subject, "lost");
+    EXPECT_FALSE(all[6].decision.run);
+    EXPECT_FALSE(all[6].decision.reason.empty());
 
     EXPECT_EQ(explainer.finish(graph, plan, false).size(), 1u);
-    EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Blur}))
-        << "of \"draw\" and \"blur\"";
+    using enum PassOwner;
+    EXPECT_EQ(explainer.listOwners(plan), (std::vector{Scene, Blur, Blur, Scene}));
     // The pass of the same name is not the decision.
     ASSERT_NE(findDecision(all, "blur"), nullptr);
     EXPECT_EQ(findDecision(all, "blur")->reason, "something moves");
@@ -128,13 +135,13 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
 }
 
 TEST(IdleCounter, IdlenessIsReportedOnceAndAUseRestartsTheCounter) {
-    IdleCounter counter;
-    for (uint32_t frame = 0; frame <= 4 * (kFramesKept - 1); ++frame)
-        EXPECT_FALSE(counter.advance(frame % (kFramesKept - 1) == 0)) << frame;
-    for (uint32_t frame = 1; frame < kFramesKept; ++frame)
+    core::IdleCounter counter;
+    for (uint32_t frame = 0; frame <= 4 * (core::kFramesKept - 1); ++frame)
+        EXPECT_FALSE(counter.advance(frame % (core::kFramesKept - 1) == 0)) << frame;
+    for (uint32_t frame = 1; frame < core::kFramesKept; ++frame)
         EXPECT_FALSE(counter.advance(false)) << frame;
     EXPECT_TRUE(counter.advance(false));
-    for (uint32_t frame = 0; frame < 3 * kFramesKept; ++frame)
+    for (uint32_t frame = 0; frame < 3 * core::kFramesKept; ++frame)
         EXPECT_FALSE(counter.advance(false)) << frame;
 }
 
