@@ -40,7 +40,7 @@ layout(binding = 10, scalar) buffer SortedArguments { DispatchArguments uLists[k
 const float kReachPx = 0.6f;
 
 /// A path that leaves its chord by less is searched as a straight one.
-const float kMaxBendPx = 4.0f;
+const float kMaxBendPx = 16.0f;
 
 /// Motions of what may pass, over the exposure.
 struct Passing {
