@@ -95,8 +95,8 @@ class LayerPlanner {
     LayerPlanner(const SweptSource& source, const LayerLimits& limits)
         : mScene(source), mLimits(limits) {}
 
-    BlendedLayer run() {
-        for (const uint32_t row : mScene.frame.layerRows) {
+    BlendedLayer run(std::span<const uint32_t> taken) {
+        for (const uint32_t row : taken) {
             const SweptBox box = mScene.sweep(row);
             if (mScene.isInPicture(box))
                 mRows.push_back({row, box, true, false});
@@ -338,11 +338,12 @@ BlendedLayer planBlendedLayer(
     const ViewRequest& view,
     const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
+    std::span<const uint32_t> taken,
     const LayerLimits& limits
 ) {
-    if (frame.layerRows.empty())
+    if (taken.empty())
         return {};
-    return LayerPlanner({world, layout, view, motion, frame, limits.hasLens}, limits).run();
+    return LayerPlanner({world, layout, view, motion, frame, limits.hasLens}, limits).run(taken);
 }
 
 } // namespace shutter::extract

@@ -10,6 +10,7 @@
 #include "shaders/render/blended_layer_shared.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace shutter::extract {
@@ -74,7 +75,7 @@ struct LayerLimits {
 /// As many of the wanted instants as a buffer of that size holds; 0: not even one.
 [[nodiscard]] uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes);
 
-/// \param frame whose `layerRows` findLayerRows() found
+/// \param taken rows that findLayerRows() found
 /// \param view its jitter is that of the colours that the layer is drawn over
 [[nodiscard]] BlendedLayer planBlendedLayer(
     const scene::World& world,
@@ -82,6 +83,7 @@ struct LayerLimits {
     const ViewRequest& view,
     const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
+    std::span<const uint32_t> taken,
     const LayerLimits& limits
 );
 

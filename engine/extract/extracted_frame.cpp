@@ -22,10 +22,9 @@ core::Error describeFullTable(uint32_t limit) {
 core::Result<ExtractedFrame>
 extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request) {
     FrameExtractor extractor;
-    auto frame = extractor.update(world, layout, request);
-    if (!frame)
+    if (const auto frame = extractor.update(world, layout, request); !frame)
         return frame.error();
-    return std::move(*frame.value());
+    return extractor.take();
 }
 
 const DeformedEntity* findDeformed(const ExtractedFrame& frame, uint32_t row) {

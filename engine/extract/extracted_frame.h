@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shutter::extract {
@@ -159,7 +160,6 @@ struct RowChanges {
     uint64_t since = 0;    ///< revision of the earlier frame's; 0: there was none
     bool all = true;
     std::vector<uint32_t> rows; ///< unless `all`
-    size_t ownRows = 0;         ///< of the frame; those behind them, if any, were appended to it
 };
 
 struct ExtractedFrame {
@@ -174,16 +174,15 @@ struct ExtractedFrame {
     /// Changes whenever other rows are static; no two frame extractors have the same.
     uint64_t staticSet = 0;
     /// Changes whenever a static row changes, also in camera-relative space, as when the camera
-    /// moves; except for EntityRow::instanceMask, which rows that are static in the world have
-    /// only if the camera moves.
+    /// moves.
     uint64_t staticRevision = 0;
     /// With Jittered::Static: whether the camera has not moved since the previous frame and does
     /// not move.
     bool isCameraAtRest = false;
-    /// One per own row, with Jittered::Static: whether the entity is at rest and does not deform.
+    /// One per row, with Jittered::Static: whether the entity is at rest and does not deform.
     /// Such entities are jittered unless the camera moves.
     std::vector<bool> atRest;
-    std::vector<math::dmat4> worldFromObject; ///< one per own row: at the raster instant
+    std::vector<math::dmat4> worldFromObject; ///< one per row: at the raster instant
     std::vector<uint32_t> entityMeshes;       ///< one per row: index into Assets::meshes
     std::vector<ecs::Entity> entityHandles;   ///< one per row: its entity
     /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
@@ -191,19 +190,17 @@ struct ExtractedFrame {
     std::vector<DeformedEntity> deformed;
     DrawList opaque{.farFirst = false, .still = {}, .moving = {}}; ///< opaque and masked
     DrawList blended{.farFirst = true, .still = {}, .moving = {}};
-    /// Rows whose blended surfaces are not in the raster, rising (blended_layer.h); set by the
-    /// caller, which draws these surfaces over the raster. Empty in a newly extracted frame.
-    std::vector<uint32_t> layerRows;
     std::vector<shader::LightRow> lights;
     std::vector<ecs::Entity> lightEntities; ///< one per light: its entity
     shader::FrameConstants constants{};     ///< without the tables' addresses and rows
     bool moves = false;                     ///< something in the picture, or the camera, moves
     bool mirrors = false;                   ///< the view turns windings round (FrameView::mirrors)
-
-    [[nodiscard]] bool isInLayer(uint32_t row) const {
-        return std::binary_search(layerRows.begin(), layerRows.end(), row);
-    }
 };
+
+/// Whether the row is one of those, which rise.
+[[nodiscard]] inline bool isTaken(std::span<const uint32_t> rows, uint32_t row) {
+    return std::binary_search(rows.begin(), rows.end(), row);
+}
 
 /// The error for a scene with more entities than `limit`.
 [[nodiscard]] core::Error describeFullTable(uint32_t limit);

@@ -38,16 +38,11 @@ bool isStatic(const ObjectPoses& poses) {
 
 } // namespace
 
-core::Result<ExtractedFrame*> FrameExtractor::update(
+core::Result<const ExtractedFrame*> FrameExtractor::update(
     const scene::World& world, const SceneLayout& layout, const ViewRequest& request
 ) {
     SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
     SHUTTER_TRY(mMotionCheck.check(world.registry));
-    // Rows appended by others follow our own.
-    mFrame.entities.resize(mRows.size());
-    mFrame.entityMeshes.resize(mRows.size());
-    mFrame.entityHandles.resize(mRows.size());
-
     const WorldChanges changes = mWatch.update(world.registry);
     mFrameView = std::make_unique<const FrameView>(world, request);
     const FrameView& view = *mFrameView;
@@ -62,7 +57,6 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mViewMirrors = view.mirrors();
     if (!mayRefresh || !refresh(frame, changes))
         SHUTTER_TRY(rebuild(frame));
-    mFrame.changes.ownRows = mRows.size();
     mView = view.matrices();
     mFrame.constants = view.constants();
     if (layout.hasEnvironment && request.environment)
@@ -71,7 +65,6 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.moves = view.moves() || mMovesInView > 0;
     mFrame.mirrors = view.mirrors();
     mFrame.isCameraAtRest = view.isCameraAtRest();
-    mFrame.layerRows.clear();
     return &mFrame;
 }
 
@@ -370,7 +363,6 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, PosedEntity posed
         placed.row.motion =
             static_cast<uint32_t>(motions.size()) + (row.moving ? mFirstMovingMotion : 0);
         motions.push_back(placed.motion);
-        placed.row.instanceMask = entry.instanceMask; // until it gets another (instance_masks.h)
     }
     if (!mFrame.changes.all && std::memcmp(&entry, &placed.row, sizeof(entry)) != 0)
         mFrame.changes.rows.push_back(index);

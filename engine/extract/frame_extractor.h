@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace shutter::extract {
@@ -25,11 +26,14 @@ class FrameExtractor {
   public:
     /// The frame equals extractFrame()'s, except that rows that were written to still count as
     /// moving ones, and that the table of motions may be in another order. It lives until the next
-    /// call and may be written to: rows that are appended are dropped then.
+    /// call.
     /// \param layout must not change between calls
     /// Error: as extractFrame's.
-    [[nodiscard]] core::Result<ExtractedFrame*>
+    [[nodiscard]] core::Result<const ExtractedFrame*>
     update(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+    /// Moves the frame out; must be the last call.
+    [[nodiscard]] ExtractedFrame take() { return std::move(mFrame); }
 
     /// The camera and the motion that the frame was made with. Needs a frame (CHECKed); reads the
     /// world, which must be as it was then.

@@ -43,23 +43,6 @@ std::vector<uint32_t> listMoving(const ExtractedFrame& frame) {
     return rows;
 }
 
-/// Rows that had a mask and now have none, since they left the picture.
-std::vector<uint32_t>
-listForgotten(const ExtractedFrame& frame, const std::vector<uint32_t>& moving) {
-    std::vector<uint32_t> rows;
-    const auto consider = [&](uint32_t row) {
-        if (frame.entities[row].instanceMask != 0 &&
-            !std::binary_search(moving.begin(), moving.end(), row))
-            rows.push_back(row);
-    };
-    if (frame.staticMotions.empty())
-        std::for_each(frame.movingRows.begin(), frame.movingRows.end(), consider);
-    else
-        for (uint32_t row = 0; row < frame.changes.ownRows; ++row)
-            consider(row);
-    return rows;
-}
-
 /// Size of the bounds as a share of their distance; any monotonic measure would do.
 double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bounds) {
     math::dmat4 matrix(1.0);
@@ -72,12 +55,6 @@ double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bou
     return std::isfinite(share) ? share : 0.0; // NaN has no order
 }
 
-/// A row with the mask that it had is as it was.
-void setMask(ExtractedFrame& frame, uint32_t row, uint32_t mask) {
-    if (std::exchange(frame.entities[row].instanceMask, mask) != mask && !frame.changes.all)
-        frame.changes.rows.push_back(row);
-}
-
 } // namespace
 
 std::span<const uint32_t> listInstanceMasks() {
@@ -85,9 +62,8 @@ std::span<const uint32_t> listInstanceMasks() {
     return kMasks;
 }
 
-void assignInstanceMasks(ExtractedFrame& frame, const SceneLayout& layout) {
+std::vector<RowMask> assignInstanceMasks(const ExtractedFrame& frame, const SceneLayout& layout) {
     std::vector<uint32_t> rows = listMoving(frame);
-    std::vector<uint32_t> without = listForgotten(frame, rows); // all others have none
     const std::span<const uint32_t> masks = listInstanceMasks();
     if (rows.size() > masks.size()) {
         std::vector<std::pair<double, uint32_t>> sizes;
@@ -102,14 +78,14 @@ void assignInstanceMasks(ExtractedFrame& frame, const SceneLayout& layout) {
             sizes.begin(), sizes.begin() + static_cast<ptrdiff_t>(masks.size()), sizes.end()
         );
         rows.clear();
-        for (size_t i = 0; i < sizes.size(); ++i)
-            (i < masks.size() ? rows : without).push_back(sizes[i].second);
+        for (size_t i = 0; i < masks.size(); ++i)
+            rows.push_back(sizes[i].second);
         std::sort(rows.begin(), rows.end()); // who keeps a mask keeps the same, if it can
     }
+    std::vector<RowMask> assigned;
     for (size_t i = 0; i < rows.size(); ++i)
-        setMask(frame, rows[i], masks[i]);
-    for (const uint32_t row : without)
-        setMask(frame, row, 0);
+        assigned.push_back({rows[i], masks[i]});
+    return assigned;
 }
 
 } // namespace shutter::extract

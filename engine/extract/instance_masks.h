@@ -6,8 +6,10 @@
 
 #include "engine/extract/extracted_frame.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace shutter::extract {
 
@@ -17,14 +19,31 @@ namespace shutter::extract {
 /// What entities have that no ray leaves out by its mask: as many bits as the others.
 inline constexpr uint32_t kSharedInstanceMask = 0x70u;
 
-/// Assigns masks (EntityRow::instanceMask) to entities that move in the picture, since rays may
-/// have to exclude them; to the apparently largest if there are more entities than masks. The
-/// others get 0.
-void assignInstanceMasks(ExtractedFrame& frame, const SceneLayout& layout);
+/// EntityRow::instanceMask of a row.
+struct RowMask {
+    uint32_t row = 0;
+    uint32_t mask = 0;
+};
 
-/// Solid bits of the entity's instance.
-[[nodiscard]] inline uint32_t solidMaskOf(const shader::EntityRow& row) {
-    return row.instanceMask != 0 ? row.instanceMask : kSharedInstanceMask;
+/// Assigns masks to entities that move in the picture, since rays may have to exclude them; to the
+/// apparently largest if there are more entities than masks. \return by rising row; the others have
+/// none, 0
+[[nodiscard]] std::vector<RowMask>
+assignInstanceMasks(const ExtractedFrame& frame, const SceneLayout& layout);
+
+/// The row's mask among those of assignInstanceMasks(), 0: none.
+[[nodiscard]] inline uint32_t maskOf(std::span<const RowMask> masks, uint32_t row) {
+    const auto found =
+        std::lower_bound(masks.begin(), masks.end(), row, [](const RowMask& mask, uint32_t of) {
+            return mask.row < of;
+        });
+    return found != masks.end() && found->row == row ? found->mask : 0;
+}
+
+/// Solid bits of the row's instance.
+[[nodiscard]] inline uint32_t solidMaskOf(std::span<const RowMask> masks, uint32_t row) {
+    const uint32_t own = maskOf(masks, row);
+    return own != 0 ? own : kSharedInstanceMask;
 }
 
 } // namespace shutter::extract

@@ -37,7 +37,7 @@ bool hasSameParts(const scene::Deformation& a, const scene::Deformation& b) {
 bool showsNothingElse(const RasterRecord& last, const RasterRecord& now) {
     return last.shapes.empty() && now.shapes.empty() && last.entities == now.entities &&
            last.unjitteredFromWorld == now.unjitteredFromWorld &&
-           last.worldFromObject == now.worldFromObject && last.layer == now.layer;
+           last.worldFromObject == now.worldFromObject && last.taken == now.taken;
 }
 
 class Builder {
@@ -60,11 +60,13 @@ class Builder {
             mShapeOfRow[mFrame.deformed[i].row] = i;
     }
 
-    InstantTables run(const RasterRecord* last, const InstantFrame* second) {
+    InstantTables
+    run(const RasterRecord* last, const InstantFrame* second, std::vector<ecs::Entity> taken) {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
         tables.record = makeRasterRecord(mWorld, mView, mMotion, mFrame, mView.exposure.rasterTime);
+        tables.record.taken = std::move(taken);
         tables.raster = describeRaster(tables.rasterWays);
         if (last && isOfFrameBefore(mWorld, mView, mMotion, *last) &&
             !(mView.usesLens && showsNothingElse(*last, tables.record)))
@@ -334,10 +336,11 @@ InstantTables computeInstantTables(
     const ExtractedFrame& frame,
     uint32_t instantCount,
     const RasterRecord* last,
-    const InstantFrame* second
+    const InstantFrame* second,
+    std::vector<ecs::Entity> taken
 ) {
     SHUTTER_CHECK(instantCount > 0, "no instants");
-    return Builder(world, view, motion, frame, instantCount).run(last, second);
+    return Builder(world, view, motion, frame, instantCount).run(last, second, std::move(taken));
 }
 
 } // namespace shutter::extract

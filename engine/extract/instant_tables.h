@@ -45,6 +45,7 @@ struct InstantFrame {
 /// camera, in the same size and without a cut in between, and not for entities that appeared, were
 /// teleported or changed their mesh
 /// \param second drawn for the same view, or null
+/// \param taken RasterRecord::taken of the frame
 [[nodiscard]] InstantTables computeInstantTables(
     const scene::World& world,
     const ViewRequest& view,
@@ -52,7 +53,8 @@ struct InstantFrame {
     const ExtractedFrame& frame,
     uint32_t instantCount,
     const RasterRecord* last,
-    const InstantFrame* second = nullptr
+    const InstantFrame* second = nullptr,
+    std::vector<ecs::Entity> taken = {}
 );
 
 } // namespace shutter::extract

@@ -44,9 +44,7 @@ RasterRecord makeRasterRecord(
     record.height = view.height;
     record.pictureFromWorld = pictureFromWorldAt(world, view, motion, s);
     record.unjitteredFromWorld = pictureFromWorldAt(world, unjittered, motion, s);
-    // Rows appended by others follow those that were drawn.
-    const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
-    record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
+    record.entities = frame.entityHandles;
     record.worldFromObject = frame.worldFromObject;
     record.deforms.assign(frame.worldFromObject.size(), false);
     for (const DeformedEntity& one : frame.deformed) {
@@ -55,7 +53,6 @@ RasterRecord makeRasterRecord(
             {one.row, one.mesh, one.raster, frame.entities[one.row].clipFromObjectRaster}
         );
     }
-    record.layer = listEntities(frame, frame.layerRows);
     return record;
 }
 

@@ -41,8 +41,8 @@ struct RasterRecord {
     std::vector<math::dmat4> worldFromObject;
     std::vector<bool> deforms;       ///< the row's shape changes during the exposure
     std::vector<RasterShape> shapes; ///< in the order of their rows: 128 bytes per joint
-    /// Those whose blended surfaces are not in the raster (ExtractedFrame::layerRows), in order.
-    std::vector<ecs::Entity> layer;
+    /// Those whose blended surfaces are not in the raster, in order; set by the caller.
+    std::vector<ecs::Entity> taken;
 };
 
 /// The rows' entities, in order.

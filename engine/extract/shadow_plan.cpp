@@ -93,7 +93,7 @@ class Planner {
         if (mLights.empty())
             return {false, "no light casts shadows"};
         size_t casters = 0;
-        for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
+        for (uint32_t row = 0; row < mFrame.entities.size(); ++row) {
             casters += castsShadows(mLayout, mFrame.entityMeshes[row]);
             const math::Bounds box = math::transformBounds(
                 mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row)
@@ -138,7 +138,7 @@ class Planner {
         std::vector<ShadowCaster> movers;
         const auto cap = std::min<size_t>(kMaxShadowMovers, kMaxShadowLayers / mLights.size());
         size_t next = 0; // of movingRows
-        for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
+        for (uint32_t row = 0; row < mFrame.entities.size(); ++row) {
             const bool moving = next < mFrame.movingRows.size() && mFrame.movingRows[next] == row;
             next += moving;
             if (!castsShadows(mLayout, mFrame.entityMeshes[row]))

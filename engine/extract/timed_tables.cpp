@@ -58,7 +58,7 @@ class Builder {
         const scene::World& world,
         const SceneLayout& layout,
         const ViewRequest& request,
-        ExtractedFrame& frame
+        const ExtractedFrame& frame
     )
         : mWorld(world), mLayout(layout), mRequest(request), mFrame(frame),
           mCamera(world.registry.get<scene::Camera>(request.camera)),
@@ -231,7 +231,7 @@ class Builder {
     }
 
     core::Status addHiddenEntities() {
-        const std::vector<ecs::Entity> drawn = mFrame.entityHandles;
+        const std::vector<ecs::Entity>& drawn = mFrame.entityHandles;
         size_t next = 0; // rows are in the order of the registry's view
         for (auto [entity, instance] : mWorld.registry.view<scene::MeshInstance>()) {
             if (next < drawn.size() && drawn[next] == entity) {
@@ -244,19 +244,17 @@ class Builder {
             const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];
             if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1])
                 continue;
-            const auto index = static_cast<uint32_t>(mFrame.entities.size());
+            const auto index = static_cast<uint32_t>(mTables.rows.size());
             auto keys = computeHiddenRow(entity, index, instance.mesh);
             if (!keys)
                 continue;
-            if (mFrame.entities.size() >= mRequest.entityLimit)
+            if (index >= mRequest.entityLimit)
                 return describeFullTable(mRequest.entityLimit);
             shader::EntityRow row{};
             row.firstGeometry = firstGeometry;
             row.handedness = 1.0f;
             row.motion = shader::kNoMotion;
-            mFrame.entities.push_back(row);
-            mFrame.entityMeshes.push_back(instance.mesh);
-            mFrame.entityHandles.push_back(entity);
+            mTables.extra.push_back({row, instance.mesh});
             mTables.rows.push_back(std::move(*keys));
         }
         return {};
@@ -351,7 +349,7 @@ class Builder {
     }
 
     bool hasTriangles(uint32_t row) const {
-        const uint32_t mesh = mFrame.entityMeshes[row];
+        const uint32_t mesh = mTables.findRow(mFrame, row).mesh;
         const auto begin = mLayout.geometries.begin();
         return std::any_of(
             begin + mLayout.firstGeometry[mesh],
@@ -383,7 +381,7 @@ class Builder {
     const scene::World& mWorld;
     const SceneLayout& mLayout;
     const ViewRequest& mRequest;
-    ExtractedFrame& mFrame;
+    const ExtractedFrame& mFrame;
     const scene::Camera& mCamera;
     scene::ExposureMotion mMotion;
     dvec3 mOrigin{0.0};
@@ -398,7 +396,7 @@ core::Result<TimedTables> computeTimedTables(
     const scene::World& world,
     const SceneLayout& layout,
     const ViewRequest& request,
-    ExtractedFrame& frame
+    const ExtractedFrame& frame
 ) {
     return Builder(world, layout, request, frame).run();
 }

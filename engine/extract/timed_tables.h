@@ -30,8 +30,17 @@ struct TimedDeformation {
     [[nodiscard]] bool changes() const { return keys.size() > 1; }
 };
 
+/// A row of the entity table behind those of the frame.
+struct ExtraRow {
+    shader::EntityRow row;
+    uint32_t mesh = 0; ///< index into Assets::meshes
+};
+
 struct TimedTables {
-    std::vector<MotionKeys> rows;         ///< parallel to ExtractedFrame::entities
+    std::vector<MotionKeys> rows; ///< parallel to ExtractedFrame::entities, then to `extra`
+    /// Entities that cannot be drawn at the raster instant but can at another: no pixel of the
+    /// raster image has their id.
+    std::vector<ExtraRow> extra;
     std::vector<TimedDeformation> shapes; ///< of the rows whose mesh is deformed, in their order
     MotionKeys camera;     ///< relWorldFromView, widened by the lens as TimedConstants::cameraKeys
     math::vec4 view{0.0f}; ///< TimedConstants::view
@@ -42,17 +51,25 @@ struct TimedTables {
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be hit, in spatial order
     std::vector<Box> boxes; ///< of `moving`: camera-relative space, over the whole exposure, finite
+
+    /// A row of `frame`, which the tables were computed of, or of `extra`.
+    [[nodiscard]] ExtraRow findRow(const ExtractedFrame& frame, size_t row) const {
+        const size_t own = frame.entities.size();
+        if (row < own)
+            return {frame.entities[row], frame.entityMeshes[row]};
+        return extra.at(row - own);
+    }
 };
 
 /// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster
-/// instant but can at another (as one scaled to nothing for a while) gets an extra row after the
-/// others: no pixel of the raster image has its id, but rays may hit it. Error: the world has more
-/// entities than the table can hold, or the shapes need more than kMaxDeformedBytes.
+/// instant but can at another (as one scaled to nothing for a while) gets an extra row, since rays
+/// may hit it. Error: the world has more entities than the table can hold, or the shapes need more
+/// than kMaxDeformedBytes.
 [[nodiscard]] core::Result<TimedTables> computeTimedTables(
     const scene::World& world,
     const SceneLayout& layout,
     const ViewRequest& request,
-    ExtractedFrame& frame
+    const ExtractedFrame& frame
 );
 
 } // namespace shutter::extract

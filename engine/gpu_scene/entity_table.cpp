@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace shutter::gpu_scene {
 
@@ -22,21 +24,56 @@ bool EntityTable::fit(gpu::Buffer& buffer, const char* name, VkDeviceSize bytes)
     return true;
 }
 
-EntityTable::Written EntityTable::update(const extract::ExtractedFrame& frame) {
+void EntityTable::writeRow(const extract::ExtractedFrame& frame, uint32_t row) {
+    EntityRow masked = frame.entities[row];
+    masked.instanceMask = extract::maskOf(mMasks, row);
+    mRows.writeBytes(&masked, sizeof(masked), row * sizeof(EntityRow));
+}
+
+EntityTable::Written EntityTable::update(
+    const extract::ExtractedFrame& frame,
+    const std::vector<extract::RowMask>* masks,
+    std::span<const extract::ExtraRow> extra
+) {
     Written written;
     const std::span<const EntityRow> rows = frame.entities;
     const extract::RowChanges& changes = frame.changes;
-    const bool renewed = fit(mRows, "entity table", rows.size_bytes());
+    mRowCount = static_cast<uint32_t>(rows.size() + extra.size());
+    const bool renewed = fit(mRows, "entity table", mRowCount * sizeof(EntityRow));
     const bool follows = !renewed && !changes.all && changes.since == mRevision;
+    std::vector<extract::RowMask> before;
+    if (masks != nullptr)
+        before = std::exchange(mMasks, *masks);
     if (follows) {
         for (const uint32_t row : changes.rows)
-            mRows.write(rows.subspan(row, 1), row * sizeof(EntityRow));
+            writeRow(frame, row);
         written.rows = changes.rows.size();
+        const auto writeIfChanged = [&](uint32_t row) {
+            if (extract::maskOf(before, row) == extract::maskOf(mMasks, row))
+                return;
+            writeRow(frame, row);
+            ++written.rows;
+        };
+        if (masks != nullptr) {
+            for (const extract::RowMask& mask : mMasks)
+                writeIfChanged(mask.row);
+            for (const extract::RowMask& mask : before)
+                if (extract::maskOf(mMasks, mask.row) == 0)
+                    writeIfChanged(mask.row);
+        }
+    } else {
+        if (masks == nullptr)
+            mMasks.clear(); // rows may be other entities'
+        mRows.write(rows);
+        for (const extract::RowMask& mask : mMasks)
+            writeRow(frame, mask.row);
+        written.rows = rows.size();
     }
-    // Rows that others appended are of this frame only.
-    const size_t first = follows ? changes.ownRows : 0;
-    mRows.write(rows.subspan(first), first * sizeof(EntityRow));
-    written.rows += rows.size() - first;
+    std::vector<EntityRow> behind;
+    for (const extract::ExtraRow& one : extra)
+        behind.push_back(one.row);
+    mRows.write(std::span<const EntityRow>(behind), rows.size_bytes());
+    written.rows += behind.size();
     mRevision = changes.revision;
 
     const std::span<const EntityMotion> still = frame.staticMotions;

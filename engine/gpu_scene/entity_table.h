@@ -3,10 +3,14 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
+#include "engine/extract/instance_masks.h"
+#include "engine/extract/timed_tables.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace shutter::gpu_scene {
 
@@ -22,7 +26,15 @@ class EntityTable {
         uint64_t motions = 0;
     };
 
-    Written update(const extract::ExtractedFrame& frame);
+    /// \param masks of the frame's rows; null: no ray needs them, and rows keep what they had
+    /// \param extra rows of this frame only, behind its own
+    Written update(
+        const extract::ExtractedFrame& frame,
+        const std::vector<extract::RowMask>* masks = nullptr,
+        std::span<const extract::ExtraRow> extra = {}
+    );
+
+    [[nodiscard]] uint32_t rowCount() const { return mRowCount; }
 
     [[nodiscard]] VkDeviceAddress rows() const { return mRows.address(); }
 
@@ -32,8 +44,12 @@ class EntityTable {
     /// True if it was recreated: then its contents are undefined.
     bool fit(gpu::Buffer& buffer, const char* name, VkDeviceSize bytes);
 
+    void writeRow(const extract::ExtractedFrame& frame, uint32_t row);
+
     gpu::Device& mDevice;
     gpu::Buffer mRows;
+    uint32_t mRowCount = 0;
+    std::vector<extract::RowMask> mMasks; ///< of the rows in mRows
     gpu::Buffer mMotions;
     uint64_t mRevision = 0;      ///< RowChanges::revision of what mRows holds
     uint64_t mStillRevision = 0; ///< ExtractedFrame's, of the start of mMotions

@@ -45,12 +45,13 @@ std::vector<shader::TimedRow> TimedScene::makeRows(
     std::vector<shader::TimedRow> rows(tables.rows.size());
     for (size_t i = 0; i < rows.size(); ++i) {
         rows[i].keyCount = static_cast<uint32_t>(tables.rows[i].keys.size());
-        rows[i].firstGeometry = frame.entities[i].firstGeometry;
+        rows[i].firstGeometry = tables.findRow(frame, i).row.firstGeometry;
         rows[i].deformationKeyCount = 1;
         rows[i].handedness = 1.0f;
     }
     for (const uint32_t row : tables.moving)
-        rows[row].meshScene = gpu::splitAddress(scene.meshScene(frame.entityMeshes[row]).address());
+        rows[row].meshScene =
+            gpu::splitAddress(scene.meshScene(tables.findRow(frame, row).mesh).address());
     for (size_t i = 0; i < tables.shapes.size(); ++i) {
         shader::TimedRow& row = rows[tables.shapes[i].row];
         row.firstGeometry = firstDeformedGeometry + mShapes[i].firstRow;
@@ -163,7 +164,7 @@ std::vector<gpu::Instance> TimedScene::listInstances(
         if (keys.size() > 1)
             continue;
         if (!deformed) {
-            instances.add(row, frame.entityMeshes[row], keys[0].rows);
+            instances.add(row, tables.findRow(frame, row).mesh, keys[0].rows);
         } else if (!tables.shapes[shape].changes()) {
             const extract::TimedDeformation& still = tables.shapes[shape];
             instances.add(
@@ -207,7 +208,7 @@ graph::TimedRays TimedScene::declare(
     std::vector<uint32_t> meshes;
     for (const uint32_t row : tables.moving)
         if (!deformed[row])
-            meshes.push_back(frame.entityMeshes[row]);
+            meshes.push_back(tables.findRow(frame, row).mesh);
     scene.buildMeshScenes(meshes);
     mTlas.prepare(mDevice, listInstances(tables, frame, scene));
 

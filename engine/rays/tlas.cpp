@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/rays/tlas.h"
 
-#include "engine/extract/instance_masks.h"
 #include "engine/graph/execute.h"
 
 #include <utility>
@@ -13,7 +12,7 @@ namespace {
 /// Calls `use` with each row that is static.
 template <class Use> void forEachStill(const extract::ExtractedFrame& frame, Use&& use) {
     size_t next = 0; // of movingRows
-    for (uint32_t row = 0; row < frame.changes.ownRows; ++row) {
+    for (uint32_t row = 0; row < frame.entities.size(); ++row) {
         if (next < frame.movingRows.size() && frame.movingRows[next] == row)
             ++next;
         else
@@ -21,10 +20,13 @@ template <class Use> void forEachStill(const extract::ExtractedFrame& frame, Use
     }
 }
 
-bool addStill(const extract::ExtractedFrame& frame, uint32_t row, InstanceList& instances) {
-    const shader::EntityRow& entry = frame.entities[row];
+bool addStill(const MaskedFrame& masked, uint32_t row, InstanceList& instances) {
+    const extract::ExtractedFrame& frame = masked.frame;
     return instances.add(
-        row, frame.entityMeshes[row], entry.relWorldFromObject, extract::solidMaskOf(entry)
+        row,
+        frame.entityMeshes[row],
+        frame.entities[row].relWorldFromObject,
+        extract::solidMaskOf(masked.masks, row)
     );
 }
 
@@ -32,10 +34,11 @@ bool addStill(const extract::ExtractedFrame& frame, uint32_t row, InstanceList& 
 
 TlasHandles FrameTlas::declare(
     graph::Graph& graph,
-    const extract::ExtractedFrame& frame,
+    const MaskedFrame& masked,
     const gpu_scene::GpuScene& scene,
     const gpu_scene::DeformedMeshes& shapes
 ) {
+    const extract::ExtractedFrame& frame = masked.frame;
     TlasHandles handles;
     handles.deformedBuffer = mDeformedBlas.declare(graph, frame, scene, shapes);
     mDeformedBlasBuffer = handles.deformedBuffer;
@@ -45,11 +48,11 @@ TlasHandles FrameTlas::declare(
         mMovingInstances.emplace(scene);
     InstanceList& moving = *mMovingInstances;
     moving.clear();
-    listMoving(frame, moving);
-    const bool apart = frame.changes.ownRows - frame.movingRows.size() >= kStaticTlasInstances;
+    listMoving(masked, moving);
+    const bool apart = frame.entities.size() - frame.movingRows.size() >= kStaticTlasInstances;
     bool build = false;
     if (apart) {
-        build = updateStill(frame, scene);
+        build = updateStill(masked, scene);
         if (!moving.instances().empty()) {
             const bool buildMoving = update(mMoving, moving, false);
             handles.movingBuffer = declareOne(graph, "TLAS of movers", mMoving, buildMoving);
@@ -58,7 +61,7 @@ TlasHandles FrameTlas::declare(
     } else {
         mMoving.listed.clear();
         const bool wasApart = std::exchange(mStillRevision, 0) != 0;
-        forEachStill(frame, [&](uint32_t row) { (void)addStill(frame, row, moving); });
+        forEachStill(frame, [&](uint32_t row) { (void)addStill(masked, row, moving); });
         build = update(mStill, moving, wasApart);
     }
     handles.buffer = declareOne(graph, "TLAS", mStill, build);
@@ -66,11 +69,12 @@ TlasHandles FrameTlas::declare(
     return handles;
 }
 
-void FrameTlas::listMoving(const extract::ExtractedFrame& frame, InstanceList& instances) const {
+void FrameTlas::listMoving(const MaskedFrame& masked, InstanceList& instances) const {
+    const extract::ExtractedFrame& frame = masked.frame;
     size_t nextDeformed = 0;
     for (const uint32_t row : frame.movingRows) {
         const auto& relWorldFromObject = frame.entities[row].relWorldFromObject;
-        const uint32_t solidMask = extract::solidMaskOf(frame.entities[row]);
+        const uint32_t solidMask = extract::solidMaskOf(masked.masks, row);
         if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
             instances.add(row, frame.entityMeshes[row], relWorldFromObject, solidMask);
             continue;
@@ -85,31 +89,30 @@ void FrameTlas::listMoving(const extract::ExtractedFrame& frame, InstanceList& i
     }
 }
 
-void FrameTlas::orderStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene) {
+void FrameTlas::orderStill(const MaskedFrame& masked, const gpu_scene::GpuScene& scene) {
     InstanceList instances(scene);
     std::vector<uint32_t> listed;
     std::vector<uint32_t> leftOut; // may be met from another place of the camera
-    forEachStill(frame, [&](uint32_t row) {
-        (addStill(frame, row, instances) ? listed : leftOut).push_back(row);
+    forEachStill(masked.frame, [&](uint32_t row) {
+        (addStill(masked, row, instances) ? listed : leftOut).push_back(row);
     });
     mStillOrder.clear();
     for (const uint32_t index : instances.computeOrder())
         mStillOrder.push_back(listed[index]);
     mStillOrder.insert(mStillOrder.end(), leftOut.begin(), leftOut.end());
-    mStillSet = frame.staticSet;
+    mStillSet = masked.frame.staticSet;
 }
 
-bool FrameTlas::updateStill(
-    const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene
-) {
+bool FrameTlas::updateStill(const MaskedFrame& masked, const gpu_scene::GpuScene& scene) {
+    const extract::ExtractedFrame& frame = masked.frame;
     // While the camera moves, the masks of static entities depend on the other entities.
     if (mStillRevision == frame.staticRevision && frame.staticMotions.empty())
         return false;
     if (mStillSet != frame.staticSet)
-        orderStill(frame, scene);
+        orderStill(masked, scene);
     InstanceList instances(scene);
     for (const uint32_t row : mStillOrder)
-        (void)addStill(frame, row, instances);
+        (void)addStill(masked, row, instances);
     mStill.level.prepare(mDevice, instances.instances());
     mStill.listed.clear(); // not as update() lists
     mStillRevision = frame.staticRevision;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
+#include "engine/extract/instance_masks.h"
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shutter::rays {
@@ -31,6 +33,12 @@ struct TlasHandles {
     graph::BufferHandle deformedBuffer; ///< BLASes of deformed meshes: likewise
 };
 
+/// A frame, and which rays its instances exclude.
+struct MaskedFrame {
+    const extract::ExtractedFrame& frame;
+    std::span<const extract::RowMask> masks; ///< of assignInstanceMasks()
+};
+
 class FrameTlas {
   public:
     explicit FrameTlas(gpu::Device& device) : mDevice(device), mDeformedBlas(device) {}
@@ -39,7 +47,7 @@ class FrameTlas {
     /// finished with the last frame's. `scene` has built its BLASes, and is the same in every call.
     [[nodiscard]] TlasHandles declare(
         graph::Graph& graph,
-        const extract::ExtractedFrame& frame,
+        const MaskedFrame& masked,
         const gpu_scene::GpuScene& scene,
         const gpu_scene::DeformedMeshes& shapes
     );
@@ -52,11 +60,11 @@ class FrameTlas {
     };
 
     // True: the TLAS has to be built.
-    bool updateStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene);
+    bool updateStill(const MaskedFrame& masked, const gpu_scene::GpuScene& scene);
     bool update(Level& level, const InstanceList& instances, bool force);
 
-    void orderStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene);
-    void listMoving(const extract::ExtractedFrame& frame, InstanceList& instances) const;
+    void orderStill(const MaskedFrame& masked, const gpu_scene::GpuScene& scene);
+    void listMoving(const MaskedFrame& masked, InstanceList& instances) const;
     /// \param build false: it is unchanged
     graph::BufferHandle
     declareOne(graph::Graph& graph, const char* name, const Level& level, bool build) const;

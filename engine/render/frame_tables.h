@@ -20,23 +20,28 @@ class FrameTables {
     explicit FrameTables(gpu::Device& device) : mDevice(device), mEntityTable(device) {}
 
     struct Addresses {
-        VkDeviceAddress constants = 0; ///< shader::FrameConstants
+        VkDeviceAddress constants = 0;           ///< shader::FrameConstants
+        shader::FrameConstants constantValues{}; ///< at that address
         VkDeviceAddress response = 0; ///< shader::ResponseTable; 0: the shutter's response is a box
     };
 
-    /// Writes the rows that changed.
-    gpu_scene::EntityTable::Written updateEntities(const extract::ExtractedFrame& frame) {
-        return mEntityTable.update(frame);
-    }
+    /// What others made for the frame.
+    struct Others {
+        std::span<const uint32_t> taken;            ///< FrameConstants::layerRows
+        std::span<const shader::Geometry> deformed; ///< geometries that follow the scene's own
+        VkDeviceAddress shadows = 0;                ///< FrameConstants::shadows; 0: there are none
+        VkDeviceAddress movingTlas = 0;             ///< FrameConstants::movingTlas; likewise
+    };
 
-    /// Writes everything else; updateEntities() comes first.
-    /// \param frame its constants get the addresses of the tables
-    /// \param deformed geometries that follow the scene's own
+    /// The rows of the frame's entities (EntityTable).
+    [[nodiscard]] gpu_scene::EntityTable& entities() { return mEntityTable; }
+
+    /// Writes everything else; the frame's rows come first.
     Addresses upload(
-        extract::ExtractedFrame& frame,
+        const extract::ExtractedFrame& frame,
         const extract::ViewRequest& view,
         const gpu_scene::GpuScene& scene,
-        std::span<const shader::Geometry> deformed
+        const Others& others
     );
 
   private:

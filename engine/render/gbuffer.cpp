@@ -228,10 +228,9 @@ const GBufferPass::Drawers& GBufferPass::findDrawers(const Targets& targets) {
 GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const Source& source) {
     const extract::ExtractedFrame& frame = source.frame;
     const gpu_scene::GpuScene& scene = source.scene;
-    const bool mayHaveShadows = (frame.constants.flags & shader::kFrameShadows) != 0;
     const bool isSampled = source.samplesEdges && mMaySample;
     const uint32_t samples = isSampled ? shader::kSampleCount : 1;
-    const Drawers& drawers = findDrawers({mayHaveShadows, samples, source.writesNormals});
+    const Drawers& drawers = findDrawers({source.hasShadows, samples, source.writesNormals});
     const auto create = [&](const char* label, VkFormat format) {
         return graph.createImage(
             label,
@@ -279,7 +278,7 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
                 normal = builder.colorTarget(normal, isSampled ? none : zero);
             (void)builder.depthTarget(depth, 0.0f);
         },
-        [&drawers, &frame, &scene, constants = source.frameConstants](
+        [&drawers, &frame, &scene, taken = source.taken, constants = source.frameConstants](
             const Data&, graph::PassContext& context
         ) {
             Recorder recorder(context.frame, frame, scene, constants);
@@ -292,7 +291,7 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
             recorder.bind(drawers.sky);
             recorder.drawScreen();
             frame.blended.forEach([&](const extract::DrawItem& item) {
-                if (!frame.isInLayer(item.entity))
+                if (!extract::isTaken(taken, item.entity))
                     recorder.draw(drawers.variants, item);
             });
         }

@@ -49,8 +49,10 @@ class GBufferPass {
     struct Source {
         const extract::ExtractedFrame& frame;
         const gpu_scene::GpuScene& scene;
+        std::span<const uint32_t> taken; ///< rows whose blended surfaces are left out, rising
         std::span<const graph::BufferHandle> reads; ///< by addresses; invalid ones are passed over
         VkDeviceAddress frameConstants = 0;
+        bool hasShadows = false;    ///< a light casts some
         bool samplesEdges = false;  ///< ViewRequest::samplesEdges
         bool keepsEdges = false;    ///< GBuffer::edgeSurface is read
         bool writesNormals = false; ///< GBuffer::normal is read

@@ -29,17 +29,15 @@ core::Status OtherRaster::extract(
     if (!extracted)
         return extracted.error();
     mFrame = extracted.value();
+    mTaken.clear();
     if (!layer.empty())
         for (uint32_t row = 0; row < mFrame->entityHandles.size(); ++row)
             if (std::find(layer.begin(), layer.end(), mFrame->entityHandles[row]) != layer.end())
-                mFrame->layerRows.push_back(row);
+                mTaken.push_back(row);
     mView = view;
-    return mShadows->prepare(
-        extract::planShadows(
-            world, layout, view, mExtractor.view(), *mFrame, /*keepsExposure=*/true
-        ),
-        *mFrame
-    );
+    return mShadows->prepare(extract::planShadows(
+        world, layout, view, mExtractor.view(), *mFrame, /*keepsExposure=*/true
+    ));
 }
 
 OtherRasterView OtherRaster::declare(
@@ -52,8 +50,13 @@ OtherRasterView OtherRaster::declare(
     const math::vec2& confusion
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);
-    mTables.updateEntities(*mFrame);
-    const FrameTables::Addresses tables = mTables.upload(*mFrame, mView, scene, shapes.rows);
+    mTables.entities().update(*mFrame);
+    const FrameTables::Addresses tables = mTables.upload(
+        *mFrame,
+        mView,
+        scene,
+        {.taken = mTaken, .deformed = shapes.rows, .shadows = mShadows->constants()}
+    );
     graph::BufferHandle shadowMaps;
     if (shadows != nullptr)
         shadowMaps =
@@ -64,8 +67,10 @@ OtherRasterView OtherRaster::declare(
         name,
         {*mFrame,
          scene,
+         mTaken,
          reads,
          tables.constants,
+         mShadows->constants() != 0,
          mView.samplesEdges,
          keepsEdges,
          /*writesNormals=*/false,

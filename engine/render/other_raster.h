@@ -11,8 +11,10 @@
 #include "engine/render/gbuffer.h"
 #include "engine/render/post_effect.h"
 
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace shutter::render {
 
@@ -64,7 +66,8 @@ class OtherRaster {
     gpu_scene::DeformationPass mDeformation;
     std::unique_ptr<ShadowMaps> mShadows;
     extract::ViewRequest mView;
-    extract::ExtractedFrame* mFrame = nullptr;
+    const extract::ExtractedFrame* mFrame = nullptr;
+    std::vector<uint32_t> mTaken; ///< rows of mFrame
 };
 
 } // namespace shutter::render

@@ -94,6 +94,8 @@ struct ExtractContext {
     const extract::ExtractedFrame& frame;
     const ViewFacts& facts;
     uint32_t slot = 0; ///< PostContext::slot
+    /// Rows whose blended surfaces are not in the raster, rising: an effect draws them.
+    std::span<const uint32_t> takenRows{};
     /// Drawn at the exposure's other end (ViewRequest::instant); empty unless the effect reads it.
     std::optional<ExtractedRaster> secondRaster{};
     std::optional<ExtractedRaster> lastRaster{}; ///< of the previous frame; likewise
@@ -101,6 +103,7 @@ struct ExtractContext {
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
     bool rasterHasParticles = false; ///< they are drawn into its colour
+    bool hasShadows = false;         ///< a light casts some
     /// Changes whenever shadow maps of lights do. Shadows of movers with separate layers are not in
     /// it: ShadowConstants::tiles bounds them.
     uint64_t shadowRevision = 0;
@@ -131,11 +134,13 @@ struct PostContext {
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display{};                ///< display-encoded, once an effect has made it
     Intermediates& intermediates;
-    graph::BufferHandle shadowMaps{};   ///< that the raster read; invalid: there are none
-    VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
-    VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
-    Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
-    uint32_t slot = 0;                  ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    std::span<const uint32_t> takenRows{}; ///< ExtractContext::takenRows
+    graph::BufferHandle shadowMaps{};      ///< that the raster read; invalid: there are none
+    VkDeviceAddress response = 0;          ///< shader::ResponseTable of the shutter; 0: a box
+    VkDeviceAddress frameConstants = 0;    ///< shader::FrameConstants
+    const shader::FrameConstants* constantValues = nullptr; ///< at that address
+    Explainer& explainer; ///< takes reasons of passes that an effect leaves out
+    uint32_t slot = 0;    ///< of the frames in flight, below gpu::kMaxFramesInFlight
     /// Semaphores of the frame's submission; set by an effect that draws on an image of the window
     /// system.
     gpu::SubmitSemaphores semaphores{};

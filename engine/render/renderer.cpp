@@ -118,14 +118,13 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t fr
 
 Renderer::~Renderer() = default;
 
-void Renderer::declareTlas(
+VkDeviceAddress Renderer::declareTlas(
     graph::Graph& graph,
-    extract::ExtractedFrame& frame,
+    const rays::MaskedFrame& frame,
     const gpu_scene::DeformedMeshes& shapes,
     graph::RayScene& rays
 ) {
     const double start = nowMilliseconds();
-    extract::assignInstanceMasks(frame, mScene.layout());
     mScene.buildAllBlas();
     const rays::TlasHandles levels =
         mFrameTlas.use(mNextSlot).declare(graph, frame, mScene, shapes);
@@ -134,8 +133,8 @@ void Renderer::declareTlas(
     rays.deformedBlasBuffer = levels.deformedBuffer;
     rays.deformedBuffer = shapes.buffer;
     rays.tlas = levels.level;
-    frame.constants.movingTlas = gpu::splitAddress(levels.movingTlas);
     mTlasMilliseconds = nowMilliseconds() - start;
+    return levels.movingTlas;
 }
 
 core::Result<extract::ParticleTables> Renderer::extractParticles(
@@ -241,7 +240,7 @@ core::Status Renderer::submitFrame(
     auto own = extractOwn(world, asked.view, !effects.empty());
     if (!own)
         return own.error();
-    extract::ExtractedFrame& frame = *own.value().frame;
+    const extract::ExtractedFrame& frame = *own.value().frame;
     FrameRequest request = asked;
     request.view = own.value().view;
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
@@ -262,7 +261,7 @@ core::Status Renderer::submitFrame(
     RunningEffects running = joinNeeds(
         {facts, world, mScene.layout(), request.view, context.motion, frame}, effects, explainer
     );
-    frame.layerRows = running.layerRows;
+    context.takenRows = running.takenRows;
     if (running.samplesEdges && facts.isDefocused)
         running.confusion = math::confusionOf(extract::describeLens(
             context.motion,
@@ -291,7 +290,8 @@ core::Status Renderer::submitFrame(
     extract::ShadowPlan shadows = extract::planShadows(
         world, mScene.layout(), request.view, mExtractor.view(), frame, /*keepsExposure=*/false
     );
-    if (shadows.shadows.run)
+    context.hasShadows = shadows.shadows.run;
+    if (context.hasShadows)
         context.shadowRevision = shadows.casterRevision;
     const auto particles = extractParticles(context, request, running);
     if (!particles)
@@ -306,7 +306,7 @@ core::Status Renderer::submitFrame(
     }
     ShadowMaps* const maps = shadows.shadows.run ? &mShadows.use(pending.slot) : nullptr;
     if (maps != nullptr)
-        SHUTTER_TRY(maps->prepare(std::move(shadows), frame));
+        SHUTTER_TRY(maps->prepare(std::move(shadows)));
     context.rasterHasParticles = !running.particles.run && !particles.value().empty();
     SHUTTER_TRY(extractForEffects(context, particles.value(), running));
     slot.frame.begin();
@@ -400,7 +400,7 @@ FrameResult Renderer::finishFrame() {
 Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     graph::Graph& graph = parts.graph;
     const FrameRequest& request = parts.request;
-    extract::ExtractedFrame& frame = parts.frame;
+    const extract::ExtractedFrame& frame = parts.frame;
     RunningEffects& running = parts.running;
     const auto declareOwned = [&](PassOwner owner, const std::string& reason, const auto& declare) {
         return parts.explainer.declareOwned(parts.graph, owner, reason, declare);
@@ -419,14 +419,31 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
         deformed.insert(deformed.end(), keyed.begin(), keyed.end());
     }
     mTlasMilliseconds = 0.0;
-    if (running.rays.run)
-        declareOwned(PassOwner::Rays, running.rays.reason, [&] {
-            declareTlas(graph, frame, scene.shapes, scene.rays);
+    std::vector<extract::RowMask> masks;
+    VkDeviceAddress movingTlas = 0;
+    if (running.rays.run) {
+        masks = extract::assignInstanceMasks(frame, mScene.layout());
+        movingTlas = declareOwned(PassOwner::Rays, running.rays.reason, [&] {
+            return declareTlas(graph, {frame, masks}, scene.shapes, scene.rays);
         });
+    }
+    std::span<const extract::ExtraRow> extra;
+    if (parts.moving != nullptr)
+        extra = parts.moving->extra;
     const double start = nowMilliseconds();
-    mWritten = parts.slot.tables.updateEntities(frame);
+    mWritten =
+        parts.slot.tables.entities().update(frame, running.rays.run ? &masks : nullptr, extra);
     mTableMilliseconds = nowMilliseconds() - start;
-    scene.tables = parts.slot.tables.upload(frame, request.view, mScene, deformed);
+    const VkDeviceAddress shadows = parts.shadows != nullptr ? parts.shadows->constants() : 0;
+    scene.tables = parts.slot.tables.upload(
+        frame,
+        request.view,
+        mScene,
+        {.taken = running.takenRows,
+         .deformed = deformed,
+         .shadows = shadows,
+         .movingTlas = movingTlas}
+    );
     graph::RayScene& rays = scene.rays;
     rays.frameConstants = scene.tables.constants;
     rays.textures = mScene.textureSet();
@@ -466,8 +483,10 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
             "G-buffer",
             {frame,
              mScene,
+             running.takenRows,
              reads,
              rays.frameConstants,
+             parts.shadows != nullptr,
              running.samplesEdges,
              running.readsEdges,
              readsNormals,
@@ -538,7 +557,7 @@ void Renderer::declareEffects(
 Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
     graph::Graph& graph = parts.graph;
     const FrameRequest& request = parts.request;
-    extract::ExtractedFrame& frame = parts.frame;
+    const extract::ExtractedFrame& frame = parts.frame;
     RunningEffects& running = parts.running;
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
         mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
@@ -559,9 +578,11 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .timedRays = parts.moving ? &scene.timedRays : nullptr,
         .color = scene.gbuffer.color,
         .intermediates = intermediates,
+        .takenRows = running.takenRows,
         .shadowMaps = scene.shadowMaps,
         .response = scene.tables.response,
         .frameConstants = scene.tables.constants,
+        .constantValues = &scene.tables.constantValues,
         .explainer = parts.explainer,
         .slot = mNextSlot};
     declareEffects(parts, scene, context);

@@ -150,7 +150,7 @@ class Renderer {
         core::Decision secondRaster;
         core::Decision lastRaster;
         core::Decision layer;
-        std::vector<uint32_t> layerRows; ///< ExtractedFrame::layerRows
+        std::vector<uint32_t> takenRows; ///< ExtractContext::takenRows
         bool mayTrace = false;           ///< in another frame, if not in this
         bool samplesEdges = false;       ///< the frame is drawn with several samples per pixel
         bool readsEdges = false;         ///< Needs::edges of one of them
@@ -164,7 +164,7 @@ class Renderer {
     /// The extracted frame, and the view that it was drawn for.
     struct OwnFrame {
         extract::ViewRequest view;
-        extract::ExtractedFrame* frame = nullptr;
+        const extract::ExtractedFrame* frame = nullptr;
         bool isDefocused = false; ///< ViewFacts::isDefocused
     };
 
@@ -185,7 +185,7 @@ class Renderer {
         graph::Graph& graph;
         const FrameRequest& request;
         const ViewFacts& facts;
-        extract::ExtractedFrame& frame;
+        const extract::ExtractedFrame& frame;
         ShadowMaps* shadows;                ///< null: no light casts any
         const extract::TimedTables* moving; ///< null: no time-sampled rays
         const extract::ParticleTables& particles;
@@ -267,9 +267,10 @@ class Renderer {
     /// Frees resources that no frame used for a while.
     void releaseIdle(const RunningEffects& running);
 
-    void declareTlas(
+    /// \return the address for FrameConstants::movingTlas
+    VkDeviceAddress declareTlas(
         graph::Graph& graph,
-        extract::ExtractedFrame& frame,
+        const rays::MaskedFrame& frame,
         const gpu_scene::DeformedMeshes& shapes,
         graph::RayScene& rays
     );

@@ -63,8 +63,8 @@ Renderer::RunningEffects Renderer::joinNeeds(
         if (!needs.run.run)
             continue;
         if (!running.layer.run && needs.movingBlended.run) {
-            running.layerRows = context.findTakenRows(needs.usesLens);
-            needs.movingBlended = describeLayer(running.layerRows, context.layout);
+            running.takenRows = context.findTakenRows(needs.usesLens);
+            needs.movingBlended = describeLayer(running.takenRows, context.layout);
         }
         join(running.layer, effect->name(), needs.movingBlended);
         running.effects.push_back({effect, needs.secondRaster.run, needs.lastRaster.run});
@@ -83,7 +83,7 @@ core::Status Renderer::extractForEffects(
     ExtractContext& context, const extract::ParticleTables& particles, const RunningEffects& running
 ) {
     const extract::SceneLayout& layout = mScene.layout();
-    const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.layerRows);
+    const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.takenRows);
     // Nothing gathers the samples of static surfaces in these.
     extract::ViewRequest view = extract::withoutStaticSamples(context.view);
     view.samplesEdges = running.samplesEdges; // as this frame is drawn

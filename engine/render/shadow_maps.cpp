@@ -189,9 +189,8 @@ uint64_t countRoom(const extract::ShadowPlan& plan) {
 ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : solid(device, describeCasters(scene, false)), masked(device, describeCasters(scene, true)) {}
 
-core::Status ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame) {
+core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
     mPlan = std::move(plan);
-    frame.constants.shadows = {0, 0};
     if (!mPlan.shadows.run) {
         mImages.clear();
         return {};
@@ -246,8 +245,6 @@ core::Status ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFra
     constants.instantCount = mPlan.instantCount;
     std::memcpy(writer.bytes().data(), &constants, sizeof(constants));
     mTables.writeBytes(writer.bytes().data(), writer.bytes().size(), 0);
-    frame.constants.shadows = addressOf(0);
-    frame.constants.flags |= shader::kFrameShadows;
     return {};
 }
 

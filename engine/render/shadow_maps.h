@@ -29,10 +29,13 @@ class ShadowMaps {
   public:
     explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
 
-    /// Makes the tables; stores their address and the flag for shadows in the frame's constants.
-    /// Must be called before the constants are written. Error: the plan's maps do not fit an image
-    /// of the device.
-    core::Status prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame);
+    /// Makes the tables. Error: the plan's maps do not fit an image of the device.
+    core::Status prepare(extract::ShadowPlan plan);
+
+    /// Of the prepared plan's shader::ShadowConstants; 0: there are no shadows.
+    [[nodiscard]] VkDeviceAddress constants() const {
+        return mPlan.shadows.run ? mTables.address() : 0;
+    }
 
     /// Declares the passes of the prepared plan: none without shadows. `frame` and `scene` must
     /// live until they have been recorded.

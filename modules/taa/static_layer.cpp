@@ -36,7 +36,7 @@ bool hasPassers(const render::ExtractContext& context, const std::vector<bool>& 
     const auto& blended = frame.blended.moving;
     return context.rasterHasParticles ||
            std::any_of(blended.begin(), blended.end(), [&](const extract::DrawItem& item) {
-               return !rests[item.entity] && !frame.isInLayer(item.entity);
+               return !rests[item.entity] && !extract::isTaken(context.takenRows, item.entity);
            });
 }
 
@@ -61,25 +61,26 @@ StaticLayer::Record StaticLayer::makeRecord(const render::ExtractContext& contex
     record.raster = extract::makeRasterRecord(
         context.world, context.view, context.motion, frame, context.view.exposure.rasterTime
     );
+    record.raster.taken = extract::listEntities(frame, context.takenRows);
     record.meshes = frame.entityMeshes;
     record.rests = frame.atRest;
     record.lights = frame.lights;
     record.background = frame.constants.background;
     record.ambient = frame.constants.ambient;
     record.flags = frame.constants.flags;
+    record.hasShadows = context.hasShadows;
     record.shadows = context.view.shadows;
     record.shadowRevision = context.shadowRevision;
-    record.mayReach =
-        (frame.constants.flags & shader::kFrameShadows) != 0 || !frame.blended.still.empty();
+    record.mayReach = context.hasShadows || !frame.blended.still.empty();
     return record;
 }
 
 void StaticLayer::compare(const Record& now, const Record& last) {
     mFrame.mayDiffer =
         last.hasPassers || now.background != last.background || now.ambient != last.ambient ||
-        now.flags != last.flags || now.raster.layer != last.raster.layer ||
-        !isSame(now.shadows, last.shadows) || now.shadowRevision != last.shadowRevision ||
-        !hasSameBytes(now.lights, last.lights);
+        now.flags != last.flags || now.hasShadows != last.hasShadows ||
+        now.raster.taken != last.raster.taken || !isSame(now.shadows, last.shadows) ||
+        now.shadowRevision != last.shadowRevision || !hasSameBytes(now.lights, last.lights);
     bool changes = false; // something came, went, started or stopped
     const std::vector<uint32_t> nowRows = extract::findRows(last.raster, now.raster.entities);
     const std::vector<uint32_t> nowShapes = listShapes(now.raster);

@@ -57,7 +57,8 @@ class StaticLayer {
         std::vector<shader::LightRow> lights;
         math::vec4 background{0.0f};
         math::vec4 ambient{0.0f};
-        uint32_t flags = 0; ///< of shader::FrameConstants
+        uint32_t flags = 0;      ///< of shader::FrameConstants
+        bool hasShadows = false; ///< a light casts some
         extract::ShadowSettings shadows;
         uint64_t shadowRevision = 0; ///< ExtractContext's
         bool hasPassers = false;     ///< a moving blended surface lies over static ones

@@ -399,6 +399,7 @@ class EmbeddedLayer : public test::StagedTest {
             context.view,
             motion,
             context.frame,
+            context.takenRows,
             limits
         );
     }

@@ -330,7 +330,7 @@ TEST_F(EmbeddedIds, IdsWithoutRowsRevealNothingAndAHitEntityMayHaveNone) {
                     table.writeBytes(data, bytes, 0);
                     return table.address();
                 };
-                shader::FrameConstants constants = context.frame.constants;
+                shader::FrameConstants constants = *context.constantValues;
                 constants.entities =
                     gpu::splitAddress(upload(rows.data(), rows.size() * sizeof(rows[0])));
                 constants.entityCount = rowCount;

@@ -490,7 +490,7 @@ TEST_F(DemandLaw, ATableThatMissedAFrameTakesAllRows) {
     const gpu_scene::GpuScene scene(device(), crowd.scene.world.assets);
     extract::FrameExtractor extractor;
     gpu_scene::EntityTable table(device());
-    const auto extract = [&](double seconds) -> extract::ExtractedFrame& {
+    const auto extract = [&](double seconds) -> const extract::ExtractedFrame& {
         extract::ViewRequest view;
         view.camera = crowd.scene.camera;
         view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, seconds);
@@ -500,10 +500,16 @@ TEST_F(DemandLaw, ATableThatMissedAFrameTakesAllRows) {
     EXPECT_EQ(table.update(extract(0.1)).rows, 1u);
     (void)extract(0.2);
     EXPECT_EQ(table.update(extract(0.3)).rows, 41u);
-    extract::ExtractedFrame& longer = extract(0.4);
-    longer.entities.emplace_back();
-    EXPECT_EQ(table.update(longer).rows, 2u) << "what was appended is this frame's only";
+    const std::vector<extract::ExtraRow> extra(1);
+    EXPECT_EQ(table.update(extract(0.4), nullptr, extra).rows, 2u) << "of this frame only";
     EXPECT_EQ(table.update(extract(0.5)).rows, 1u);
+    const uint32_t mover = 40;
+    const std::vector<extract::RowMask> masks{{0, 7u}, {mover, 11u}};
+    EXPECT_EQ(table.update(extract(0.6), &masks).rows, 3u) << "the mover, and two masks";
+    EXPECT_EQ(table.update(extract(0.7), &masks).rows, 1u) << "masks are as they were";
+    EXPECT_EQ(table.update(extract(0.8)).rows, 1u) << "no ray needs them";
+    const std::vector<extract::RowMask> none;
+    EXPECT_EQ(table.update(extract(0.9), &none).rows, 3u);
 }
 
 TEST_F(DemandLaw, PicturesAreThoseOfARendererThatKeptNothing) {

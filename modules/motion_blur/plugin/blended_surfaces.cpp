@@ -62,7 +62,13 @@ void BlendedSurfaces::extract(const render::ExtractContext& context, extract::La
     extract::ViewRequest view = context.view;
     view.jitterPx = context.colorJitterPx;
     plan.layer = extract::planBlendedLayer(
-        context.world, mScene.layout(), view, context.motion, context.frame, limits
+        context.world,
+        mScene.layout(),
+        view,
+        context.motion,
+        context.frame,
+        context.takenRows,
+        limits
     );
     // Over the layer there is one background: that of its parts is seen through the layer.
     if (plan.particles && !plan.layer.empty())

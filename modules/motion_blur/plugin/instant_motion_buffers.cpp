@@ -27,7 +27,7 @@ bool isOfFrameBefore(
 ) {
     return record &&
            extract::isOfFrameBefore(context.world, context.view, context.motion, *record) &&
-           record->layer == extract::listEntities(context.frame, taken);
+           record->taken == extract::listEntities(context.frame, taken);
 }
 
 } // namespace
@@ -51,7 +51,7 @@ extract::InstantTables InstantMotionBuffers::computeTables(
     if (const auto& second = context.secondRaster)
         secondFrame.emplace(*second->view->instant, *second->frame, second->view->jitterPx);
     const extract::RasterRecord* last =
-        isOfFrameBefore(context, context.frame.layerRows, mLast) ? &*mLast : nullptr;
+        isOfFrameBefore(context, context.takenRows, mLast) ? &*mLast : nullptr;
     std::optional<extract::RasterRecord> redrawn;
     if (const auto& drawn = context.lastRaster)
         last = &redrawn.emplace(describeRaster(context.world, *drawn));
@@ -65,7 +65,8 @@ extract::InstantTables InstantMotionBuffers::computeTables(
         context.frame,
         instants.count,
         last,
-        secondFrame ? &*secondFrame : nullptr
+        secondFrame ? &*secondFrame : nullptr,
+        extract::listEntities(context.frame, context.takenRows)
     );
 }
 
@@ -74,7 +75,7 @@ void InstantMotionBuffers::extract(
 ) {
     if (!hasHistory)
         forget();
-    else if (!context.lastRaster && isAgain(context, context.frame.layerRows))
+    else if (!context.lastRaster && isAgain(context, context.takenRows))
         stepBack();
     mTables = computeTables(context, instants);
     mInstantCount = instants.count;

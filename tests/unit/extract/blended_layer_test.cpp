@@ -32,8 +32,8 @@ class BlendedLayers : public Extraction {
 
     BlendedLayer plan(const LayerLimits& limits) {
         ExtractedFrame frame = extract();
-        frame.layerRows = findLayerRows(world, layout, request, motion(), frame);
-        return planBlendedLayer(world, layout, request, motion(), frame, limits);
+        const auto taken = findLayerRows(world, layout, request, motion(), frame);
+        return planBlendedLayer(world, layout, request, motion(), frame, taken, limits);
     }
 
     static LayerLimits limitsOf(uint32_t instants) {
@@ -153,8 +153,9 @@ TEST_F(BlendedLayers, InstantsOfALensHavePlacesOfItAndReachOverItsCircles) {
     ExtractedFrame frame = extract();
     LayerLimits limits = limitsOf(15);
     limits.hasLens = true;
-    frame.layerRows = findLayerRows(world, layout, request, motion(), frame, true);
-    const BlendedLayer layer = planBlendedLayer(world, layout, request, motion(), frame, limits);
+    const auto taken = findLayerRows(world, layout, request, motion(), frame, true);
+    const BlendedLayer layer =
+        planBlendedLayer(world, layout, request, motion(), frame, taken, limits);
     ASSERT_EQ(layer.instants.size(), 15u);
     double mean = 0.0;
     double widest = 0.0;

@@ -125,26 +125,25 @@ class InstanceMasksOfAFrame : public ::testing::Test {
         for (int i = 0; i < 3; ++i)
             row.relWorldFromObject[i][i] = 1.0f;
         row.relWorldFromObject[2][3] = static_cast<float>(-distance);
-        row.instanceMask = moves ? 0x55u : 0u; // whatever an earlier frame left
         const DrawItem draw{.entity = static_cast<uint32_t>(frame.entities.size())};
         if (moves)
             frame.movingRows.push_back(draw.entity);
         (moves ? frame.opaque.moving : frame.opaque.still).push_back(draw);
         frame.entities.push_back(row);
         frame.entityMeshes.push_back(0);
-        frame.changes.ownRows = frame.entities.size();
     }
 
     std::vector<uint32_t> assign() {
-        assignInstanceMasks(frame, layout);
+        assigned = assignInstanceMasks(frame, layout);
         std::vector<uint32_t> masks;
-        for (const shader::EntityRow& row : frame.entities)
-            masks.push_back(row.instanceMask);
+        for (uint32_t row = 0; row < frame.entities.size(); ++row)
+            masks.push_back(maskOf(assigned, row));
         return masks;
     }
 
     ExtractedFrame frame;
     SceneLayout layout;
+    std::vector<RowMask> assigned;
 };
 
 TEST_F(InstanceMasksOfAFrame, TheApparentlyLargestMoversGetUniqueMasksAndStaticEntitiesNone) {
@@ -159,7 +158,7 @@ TEST_F(InstanceMasksOfAFrame, TheApparentlyLargestMoversGetUniqueMasksAndStaticE
         EXPECT_EQ(masks[row] != 0, isLarge) << row;
         EXPECT_TRUE(masks[row] == 0 || given.insert(masks[row]).second) << row;
         EXPECT_EQ(
-            solidMaskOf(frame.entities[row]), masks[row] != 0 ? masks[row] : kSharedInstanceMask
+            solidMaskOf(assigned, uint32_t(row)), masks[row] != 0 ? masks[row] : kSharedInstanceMask
         );
     }
 }
@@ -173,17 +172,6 @@ TEST_F(InstanceMasksOfAFrame, StaticEntitiesGetMasksUnderAMovingCamera) {
     const auto masks = assign();
     EXPECT_EQ(masks[0], 0u);
     EXPECT_NE(masks[1], 0u);
-}
-
-TEST_F(InstanceMasksOfAFrame, ARowChangesOnlyWithItsMask) {
-    add(5.0, false);
-    add(5.0, true);
-    frame.changes.all = false;
-    (void)assign();
-    EXPECT_EQ(frame.changes.rows, std::vector<uint32_t>{1});
-    frame.changes.rows.clear();
-    (void)assign();
-    EXPECT_TRUE(frame.changes.rows.empty());
 }
 
 } // namespace

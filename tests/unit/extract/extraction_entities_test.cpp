@@ -324,7 +324,7 @@ TEST_F(DeformedEntities, EntitiesScaledToZeroAtTheRasterInstantMayBeHitBefore) {
     ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.entities.empty());
     const TimedTables tables = computeTables(frame);
-    ASSERT_EQ(frame.entities.size(), 1u);
+    ASSERT_EQ(tables.extra.size(), 1u);
     ASSERT_EQ(tables.shapes.size(), 1u);
     EXPECT_EQ(tables.shapes[0].row, 0u);
     EXPECT_EQ(tables.moving, std::vector<uint32_t>{0});

@@ -138,7 +138,7 @@ class Extraction : public testing::Test {
         return std::move(frame).value();
     }
 
-    TimedTables computeTables(ExtractedFrame& frame) const {
+    TimedTables computeTables(const ExtractedFrame& frame) const {
         auto tables = computeTimedTables(world, layout, request, frame);
         EXPECT_TRUE(tables.ok());
         return std::move(tables).value();
