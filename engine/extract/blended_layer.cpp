@@ -184,8 +184,9 @@ class LayerPlanner {
         dmat4 worldFromRelWorld(1.0);
         worldFromRelWorld[3] = dvec4(mEye, 1.0);
         const dmat4 rasterPicture = pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
+        mTimes = scene::middlesOfLight(view.exposure, count);
         for (uint32_t i = 0; i < count; ++i) {
-            const double s = scene::invertLight(view.exposure, (i + 0.5) / double(count));
+            const double s = mTimes[i];
             ViewRequest jittered = view;
             if (mLimits.hasLens && count > 1)
                 jittered.lensPlace = placeInLens(i, count);
@@ -200,7 +201,6 @@ class LayerPlanner {
                 one.testFromRelWorld[row] = math::vec4(test[row]);
             one.time = float(s);
             one.weight = 1.0f / float(count);
-            mTimes.push_back(s);
             mClips.push_back(clip * picture);
         }
     }

@@ -82,8 +82,7 @@ class Builder {
 
   private:
     void takeTimes(uint32_t count) {
-        for (uint32_t i = 0; i < count; ++i)
-            mTimes.push_back(scene::invertLight(mView.exposure, (i + 0.5) / count));
+        mTimes = scene::middlesOfLight(mView.exposure, count);
         for (const double s : mTimes)
             mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
     }

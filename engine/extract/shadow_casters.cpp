@@ -108,8 +108,7 @@ CasterPath followCaster(
     CasterPath path;
     math::Bounds centres;
     bool moves = caster.deforms;
-    for (uint32_t i = 0; i < count; ++i) {
-        const double s = scene::invertLight(view.motion().exposure(), (i + 0.5) / count);
+    for (const double s : scene::middlesOfLight(view.motion().exposure(), count)) {
         const dmat4 instant = view.motion().worldFromObject(frame.entityHandles[caster.row], s);
         const dmat4 motion = isDrawable(instant) ? instant * objectFromRaster : dmat4(1.0);
         moves = moves || motion != dmat4(1.0);

@@ -224,6 +224,13 @@ double invertLight(const ExposureInterval& exposure, double u) {
     return invertTable(computeLightTable(exposure), u);
 }
 
+std::vector<double> middlesOfLight(const ExposureInterval& exposure, uint32_t count) {
+    std::vector<double> times;
+    for (uint32_t i = 0; i < count; ++i)
+        times.push_back(invertLight(exposure, (i + 0.5) / count));
+    return times;
+}
+
 double measureLightBefore(const ExposureInterval& exposure, double seconds) {
     const double length = exposure.close - exposure.open;
     const double s = std::clamp((seconds - exposure.open) / length, 0.0, 1.0);

@@ -126,6 +126,10 @@ computeLightTable(const ExposureInterval& exposure);
 /// The same of the exposure, or of the part of it.
 [[nodiscard]] double invertLight(const ExposureInterval& exposure, double u);
 
+/// Shutter times at the middles of `count` parts of the exposure, or of the part of it, that take
+/// equal light; rising.
+[[nodiscard]] std::vector<double> middlesOfLight(const ExposureInterval& exposure, uint32_t count);
+
 /// Share of the exposure's light that is taken before `seconds`, [0, 1].
 [[nodiscard]] double measureLightBefore(const ExposureInterval& exposure, double seconds);
 

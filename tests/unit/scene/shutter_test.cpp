@@ -278,6 +278,13 @@ TEST(ExposurePart, APartTakesItsShareOfTheLightAndIsUniformWithoutAny) {
                 EXPECT_NEAR(part.at(invertLight(part, u)), expected, 2e-4) << from << to << u;
                 EXPECT_NEAR(measureLightBefore(part, expected), u, 2e-4) << from << to << u;
             }
+            const std::vector<double> middles = middlesOfLight(part, 5);
+            ASSERT_EQ(middles.size(), 5u);
+            for (size_t i = 0; i < middles.size(); ++i)
+                EXPECT_NEAR(
+                    measureLightBefore(part, part.at(middles[i])), 0.1 + 0.2 * double(i), 2e-4
+                ) << from
+                  << to << i;
         }
     }
     shutter.response = sampled({1.0, 0.0, 0.0, 1.0});
