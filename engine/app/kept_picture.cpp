@@ -6,7 +6,7 @@
 
 namespace shutter::app {
 
-void KeptPicture::declare(render::PostContext& context) {
+void KeptPicture::declare(render::PictureContext& context) {
     SHUTTER_CHECK(context.display.isValid(), "there is no picture to keep");
     const graph::TransientImageDesc& picture = context.graph.describeImage(context.display);
     gpu::ImageDesc desc;

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "engine/gpu/memory.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <string>
 
 namespace shutter::app {
 
 /// Must be the last effect of the frame whose picture is stored.
-class KeptPicture : public render::PostEffect {
+class KeptPicture : public render::Effect {
   public:
     explicit KeptPicture(gpu::Device& device) : mDevice(device) {}
 
@@ -22,7 +22,7 @@ class KeptPicture : public render::PostEffect {
         return {.run = {true, "a later frame shows the picture"}};
     }
 
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
 
     /// The picture of the frame declared last, in SHADER_READ_ONLY layout; null before the first.
     [[nodiscard]] const gpu::Image* image() const { return mImage.handle() ? &mImage : nullptr; }

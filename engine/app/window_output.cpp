@@ -80,7 +80,7 @@ const gpu::Pipeline& WindowOutput::findPipeline(VkFormat format) {
     return found->second;
 }
 
-void WindowOutput::declare(render::PostContext& context) {
+void WindowOutput::declare(render::PictureContext& context) {
     SHUTTER_CHECK(context.display.isValid(), "there is no picture to show");
 
     struct Data {

@@ -7,7 +7,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/swapchain.h"
 #include "engine/math/math.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 #include <functional>
@@ -59,7 +59,7 @@ struct WindowTarget {
 
 /// Replaces the context's display by the window's picture, so that it can be read back. Pictures of
 /// another size than the window are fitted in and filtered linearly.
-class WindowOutput : public render::PostEffect {
+class WindowOutput : public render::Effect {
   public:
     explicit WindowOutput(gpu::Device& device);
     ~WindowOutput() override;
@@ -77,7 +77,7 @@ class WindowOutput : public render::PostEffect {
         return {.run = {true, "the picture is shown"}};
     }
 
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
 
   private:
     const gpu::Pipeline& findPipeline(VkFormat format);

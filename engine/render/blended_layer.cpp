@@ -164,7 +164,7 @@ void BlendedLayerPass::upload(const extract::BlendedLayer& layer, uint32_t slot)
 }
 
 BlendedPart BlendedLayerPass::declare(
-    const PostContext& context,
+    const PictureContext& context,
     const extract::BlendedLayer& layer,
     graph::BufferHandle surfaces,
     uint32_t part

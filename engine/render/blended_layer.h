@@ -9,7 +9,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/contexts.h"
 
 #include <array>
 #include <cstdint>
@@ -33,7 +33,7 @@ class BlendedLayerPass {
     /// \param layer not empty; it must live until the pass has been recorded
     /// \param surfaces with BlendedLayer::readsInstants: shader::InstantSurfaces and its words
     [[nodiscard]] BlendedPart declare(
-        const PostContext& context,
+        const PictureContext& context,
         const extract::BlendedLayer& layer,
         graph::BufferHandle surfaces,
         uint32_t part

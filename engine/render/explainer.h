@@ -16,7 +16,7 @@
 namespace shutter::render {
 
 enum class ExplainedKind : uint8_t {
-    Effect, ///< a post effect
+    Effect, ///< an effect on the picture
     Work,   ///< a part of the renderer's own frame
     Pass,   ///< a pass of the graph
 };
@@ -28,7 +28,7 @@ enum class PassOwner : uint8_t {
     Scene,   ///< any picture needs it: deformed meshes, G-buffer
     Rays,    ///< acceleration structures that effects trace rays through
     Blur,    ///< the motion blur, by any method
-    Other,   ///< any other post effect
+    Other,   ///< any other effect
     Display, ///< brings the linear picture to a screen, a file or memory
 };
 

@@ -55,7 +55,7 @@ graph::BufferHandle addClear(graph::Graph& graph, VkDeviceSize bytes) {
 LongestMotion::LongestMotion(gpu::Device& device)
     : mDevice(device), mSampler(device.nearestSampler()), mPipeline(device, describePipeline()) {}
 
-void LongestMotion::declare(PostContext& context) {
+void LongestMotion::declare(PictureContext& context) {
     graph::Graph& graph = context.graph;
     mRowCount = static_cast<uint32_t>(context.frame.entities.size());
     const VkDeviceSize bytes = (VkDeviceSize(mRowCount) + 1) * sizeof(uint32_t);

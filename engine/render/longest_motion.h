@@ -5,7 +5,7 @@
 
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace shutter::render {
 
 /// Runs in separate frames (FrameRequest::measuresMotion), one at a time.
-class LongestMotion : public PostEffect {
+class LongestMotion : public Effect {
   public:
     explicit LongestMotion(gpu::Device& device);
 
@@ -23,7 +23,7 @@ class LongestMotion : public PostEffect {
         return {.run = {true, "it is measured for the picture to come"}};
     }
 
-    void declare(PostContext& context) override;
+    void declare(PictureContext& context) override;
 
     /// Returns pixels from open to close, one number per row of the frame declared last, then the
     /// sky's. The GPU must have finished it.

@@ -74,7 +74,7 @@ Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view
     request.wantColor = false;
     if (!mLongestMotion)
         mLongestMotion.emplace(mDevice);
-    PostEffect* const effect = &*mLongestMotion;
+    Effect* const effect = &*mLongestMotion;
     if (const auto seen = renderFrame(world, request, std::span(&effect, 1)); !seen)
         return seen.error();
     return mLongestMotion->take();

@@ -7,9 +7,9 @@
 #include "engine/extract/frame_extractor.h"
 #include "engine/gpu_scene/deformation_pass.h"
 #include "engine/graph/graph.h"
+#include "engine/render/contexts.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
-#include "engine/render/post_effect.h"
 
 #include <cstdint>
 #include <memory>

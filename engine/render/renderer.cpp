@@ -196,7 +196,7 @@ void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediat
 }
 
 core::Result<FrameResult> Renderer::renderFrame(
-    const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+    const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
 ) {
     SHUTTER_CHECK(mPending.empty(), "{} frames are unfinished", mPending.size());
     SHUTTER_TRY(submitFrame(world, request, effects));
@@ -230,7 +230,7 @@ Renderer::extractOwn(const scene::World& world, const extract::ViewRequest& view
 }
 
 core::Status Renderer::submitFrame(
-    const scene::World& world, const FrameRequest& asked, std::span<PostEffect* const> effects
+    const scene::World& world, const FrameRequest& asked, std::span<Effect* const> effects
 ) {
     SHUTTER_CHECK(mPending.size() < mSlots.size(), "{} frames are unfinished", mPending.size());
     PendingFrame pending;
@@ -501,13 +501,13 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
 }
 
 void Renderer::declareEffects(
-    const FrameParts& parts, const DeclaredScene& scene, PostContext& context
+    const FrameParts& parts, const DeclaredScene& scene, PictureContext& context
 ) {
     graph::Graph& graph = parts.graph;
     RunningEffects& running = parts.running;
     const auto declareOther = [&](PerSlot<OtherRaster>& rasters,
                                   const char* name,
-                                  const PostEffect& reader,
+                                  const Effect& reader,
                                   const core::Decision& decision) {
         return parts.explainer.declareOwned(graph, reader.owner(), decision.reason, [&] {
             return rasters.use(context.slot)
@@ -567,7 +567,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
     Intermediates intermediates(std::move(wanted));
     publishGBuffer(scene.gbuffer, intermediates);
     publishParticles(parts, scene, intermediates);
-    PostContext context{
+    PictureContext context{
         .graph = graph,
         .view = request.view,
         .frame = frame,

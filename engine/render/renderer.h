@@ -11,6 +11,7 @@
 #include "engine/image/image.h"
 #include "engine/rays/timed_scene.h"
 #include "engine/rays/tlas.h"
+#include "engine/render/effect.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
@@ -19,7 +20,6 @@
 #include "engine/render/particles.h"
 #include "engine/render/pass_trace.h"
 #include "engine/render/per_slot.h"
-#include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
 #include <cstdint>
@@ -95,7 +95,7 @@ class Renderer {
 
     /// Records and submits a frame. As many as are in flight may be unfinished (CHECKed).
     [[nodiscard]] core::Status submitFrame(
-        const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+        const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
     );
 
     /// Waits for the oldest frame that is unfinished (CHECKed: there is one), whose effects must
@@ -108,7 +108,7 @@ class Renderer {
 
     /// Submits and finishes a frame; none may be unfinished (CHECKed).
     [[nodiscard]] core::Result<FrameResult> renderFrame(
-        const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+        const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
     );
 
     /// Measures the shares of motion that remain under the view's cap
@@ -135,7 +135,7 @@ class Renderer {
     };
 
     struct RunningEffect {
-        PostEffect* effect = nullptr;
+        Effect* effect = nullptr;
         bool readsSecondRaster = false;
         bool readsLastRaster = false;
         size_t firstPass = 0; ///< its own passes: indices into Graph::passes()
@@ -206,7 +206,7 @@ class Renderer {
 
     /// An effect of an unfinished frame, and the range of its pass times.
     struct PendingEffect {
-        PostEffect* effect = nullptr;
+        Effect* effect = nullptr;
         bool ran = false;
         std::vector<size_t> times;
     };
@@ -232,9 +232,8 @@ class Renderer {
     [[nodiscard]] core::Result<OwnFrame>
     extractOwn(const scene::World& world, const extract::ViewRequest& view, bool hasEffects);
     /// Joins what the effects of a frame need.
-    static RunningEffects joinNeeds(
-        const DecideContext& context, std::span<PostEffect* const> effects, Explainer& explainer
-    );
+    static RunningEffects
+    joinNeeds(const DecideContext& context, std::span<Effect* const> effects, Explainer& explainer);
     /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
         ExtractContext& context,
@@ -260,9 +259,10 @@ class Renderer {
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.
     DeclaredScene declareScene(const FrameParts& parts);
-    void declareEffects(const FrameParts& parts, const DeclaredScene& scene, PostContext& context);
+    void
+    declareEffects(const FrameParts& parts, const DeclaredScene& scene, PictureContext& context);
     static std::vector<PendingEffect> listPending(
-        std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
+        std::span<Effect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
     /// Frees resources that no frame used for a while.
     void releaseIdle(const RunningEffects& running);

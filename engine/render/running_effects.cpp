@@ -41,7 +41,7 @@ const std::vector<uint32_t>& DecideContext::findTakenRows(bool usesLens) const {
 }
 
 Renderer::RunningEffects Renderer::joinNeeds(
-    const DecideContext& context, std::span<PostEffect* const> effects, Explainer& explainer
+    const DecideContext& context, std::span<Effect* const> effects, Explainer& explainer
 ) {
     const ViewFacts& facts = context.facts;
     RunningEffects running;
@@ -49,7 +49,7 @@ Renderer::RunningEffects Renderer::joinNeeds(
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
     running.secondRaster = running.lastRaster = {false, "no effect that runs needs it"};
     running.layer = {false, "no effect that runs draws one"};
-    for (PostEffect* effect : effects) {
+    for (Effect* effect : effects) {
         Needs needs = effect->decide(context);
         const bool traces = needs.rays.run || needs.timedRays.run;
         if (needs.run.run && traces && !facts.deviceHasRays)
@@ -111,10 +111,10 @@ core::Status Renderer::extractForEffects(
 }
 
 std::vector<Renderer::PendingEffect> Renderer::listPending(
-    std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
+    std::span<Effect* const> effects, const RunningEffects& running, const graph::Plan& plan
 ) {
     std::vector<PendingEffect> pending;
-    for (PostEffect* effect : effects) {
+    for (Effect* effect : effects) {
         PendingEffect& own = pending.emplace_back();
         own.effect = effect;
         for (const RunningEffect& one : running.effects) {

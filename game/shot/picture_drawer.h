@@ -73,7 +73,7 @@ struct PictureRequest {
     /// Effects after the method's own, e.g. the tone map. Must live until the picture is finished.
     /// With FrameRequest::wantBrightest, they receive the measure of the slot's last finished
     /// picture.
-    std::vector<render::PostEffect*> ending;
+    std::vector<render::Effect*> ending;
     /// Below PictureDrawer::kSlots. Pictures that are drawn side by side, each again and again, use
     /// different slots, so that neither disturbs the history of the other's effects.
     uint32_t slot = 0;
@@ -230,24 +230,23 @@ class PictureDrawer {
     [[nodiscard]] core::Status submitFrame(
         const scene::World& world,
         const render::FrameRequest& frame,
-        const std::vector<render::PostEffect*>& effects,
+        const std::vector<render::Effect*>& effects,
         const Label& label
     );
     /// The view of one of the picture's frames, where its samples lie in the pixel.
     [[nodiscard]] extract::ViewRequest
     placeInPixel(const PictureRequest& request, const Part& part);
     /// Null: the method has none.
-    [[nodiscard]] render::PostEffect*
-    prepareEffect(const PictureRequest& request, const Part& part);
+    [[nodiscard]] render::Effect* prepareEffect(const PictureRequest& request, const Part& part);
     /// Null: the method has no filter of the lens, or the camera has no lens.
-    [[nodiscard]] render::PostEffect* prepareLensFilter(const PictureRequest& request);
+    [[nodiscard]] render::Effect* prepareLensFilter(const PictureRequest& request);
     /// The method's own effect and its filter of the lens, in their order.
-    [[nodiscard]] std::vector<render::PostEffect*>
+    [[nodiscard]] std::vector<render::Effect*>
     prepareBlurs(const PictureRequest& request, const Part& part);
     /// Null: the picture is no raster image.
-    [[nodiscard]] render::PostEffect* prepareTaa(const PictureRequest& request);
+    [[nodiscard]] render::Effect* prepareTaa(const PictureRequest& request);
     /// All that make the picture, before its ending.
-    [[nodiscard]] std::vector<render::PostEffect*>
+    [[nodiscard]] std::vector<render::Effect*>
     prepareEffects(const PictureRequest& request, const Part& part);
     [[nodiscard]] core::Result<render::FrameResult> drawTruth(
         const scene::World& world,

@@ -5,9 +5,9 @@
 
 namespace shutter::game {
 
-template <class Effect, class Settings>
+template <class Module, class Settings>
 void PictureEffects::add(gpu::Device& device, Settings PictureSettings::*settings) {
-    auto effect = std::make_unique<Effect>(device, PictureSettings().*settings);
+    auto effect = std::make_unique<Module>(device, PictureSettings().*settings);
     mConfigure.push_back([&one = *effect, settings](const PictureSettings& wanted) {
         one.configure(wanted.*settings);
     });
@@ -25,9 +25,9 @@ void PictureEffects::configure(const PictureSettings& settings) {
     mNeedsBrightest = settings.bloom.share > 0.0f;
 }
 
-std::vector<render::PostEffect*>
-PictureEffects::listWith(std::initializer_list<render::PostEffect*> last) const {
-    std::vector<render::PostEffect*> effects;
+std::vector<render::Effect*> PictureEffects::listWith(std::initializer_list<render::Effect*> last
+) const {
+    std::vector<render::Effect*> effects;
     for (const auto& effect : mEffects)
         effects.push_back(effect.get());
     effects.insert(effects.end(), last.begin(), last.end());

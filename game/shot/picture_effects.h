@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/gpu/device.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "game/shot/picture_settings.h"
 
 #include <functional>
@@ -25,15 +25,15 @@ class PictureEffects {
     [[nodiscard]] bool needsBrightest() const { return mNeedsBrightest; }
 
     /// In the order in which they run, and `last` behind them.
-    [[nodiscard]] std::vector<render::PostEffect*>
-    listWith(std::initializer_list<render::PostEffect*> last) const;
+    [[nodiscard]] std::vector<render::Effect*> listWith(std::initializer_list<render::Effect*> last
+    ) const;
 
   private:
     /// \param settings the effect's own, a member of PictureSettings
-    template <class Effect, class Settings>
+    template <class Module, class Settings>
     void add(gpu::Device& device, Settings PictureSettings::*settings);
 
-    std::vector<std::unique_ptr<render::PostEffect>> mEffects;
+    std::vector<std::unique_ptr<render::Effect>> mEffects;
     std::vector<std::function<void(const PictureSettings&)>> mConfigure; ///< per effect
     bool mNeedsBrightest = false;
 };

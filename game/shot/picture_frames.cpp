@@ -45,7 +45,7 @@ bool isFrameBefore(const extract::ViewRequest& drawn, const extract::ViewRequest
 
 } // namespace
 
-render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, const Part& part) {
+render::Effect* PictureDrawer::prepareEffect(const PictureRequest& request, const Part& part) {
     Slot& slot = mSlots[request.slot];
     switch (request.method.method->family) {
     case MethodFamily::Sharp:
@@ -75,7 +75,7 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
     return nullptr;
 }
 
-render::PostEffect* PictureDrawer::prepareLensFilter(const PictureRequest& request) {
+render::Effect* PictureDrawer::prepareLensFilter(const PictureRequest& request) {
     if (!request.filtersLens)
         return nullptr;
     Slot& slot = mSlots[request.slot];
@@ -91,17 +91,16 @@ render::PostEffect* PictureDrawer::prepareLensFilter(const PictureRequest& reque
     return slot.depthOfField.get();
 }
 
-std::vector<render::PostEffect*>
+std::vector<render::Effect*>
 PictureDrawer::prepareBlurs(const PictureRequest& request, const Part& part) {
-    std::vector<render::PostEffect*> effects{
-        prepareLensFilter(request), prepareEffect(request, part)};
+    std::vector<render::Effect*> effects{prepareLensFilter(request), prepareEffect(request, part)};
     if (request.method.method->filtersBlurred)
         std::swap(effects.front(), effects.back());
     std::erase(effects, nullptr);
     return effects;
 }
 
-render::PostEffect* PictureDrawer::prepareTaa(const PictureRequest& request) {
+render::Effect* PictureDrawer::prepareTaa(const PictureRequest& request) {
     if (isSampledAnyway(*request.method.method) || isBox(request))
         return nullptr;
     Slot& slot = mSlots[request.slot];
@@ -111,9 +110,9 @@ render::PostEffect* PictureDrawer::prepareTaa(const PictureRequest& request) {
     return slot.taa.get();
 }
 
-std::vector<render::PostEffect*>
+std::vector<render::Effect*>
 PictureDrawer::prepareEffects(const PictureRequest& request, const Part& part) {
-    std::vector<render::PostEffect*> effects = prepareBlurs(request, part);
+    std::vector<render::Effect*> effects = prepareBlurs(request, part);
     // Its pictures follow one another from frame to frame.
     if (part.isLastOfExposure)
         effects.insert(effects.begin(), prepareTaa(request));
@@ -136,7 +135,7 @@ PictureDrawer::prepareEffects(const PictureRequest& request, const Part& part) {
 core::Status PictureDrawer::submitFrame(
     const scene::World& world,
     const render::FrameRequest& frame,
-    const std::vector<render::PostEffect*>& effects,
+    const std::vector<render::Effect*>& effects,
     const Label& label
 ) {
     finishUntil(mRenderer.framesInFlight() - 1);
@@ -193,7 +192,7 @@ core::Status PictureDrawer::submitOwnFrame(
     if (!isLast || averagesSamples(request))
         frame.intermediates.clear();
     frame.isFollowed = part.isLastOfExposure;
-    std::vector<render::PostEffect*> effects = prepareEffects(request, part);
+    std::vector<render::Effect*> effects = prepareEffects(request, part);
     if (part.isShown)
         effects.insert(effects.end(), request.ending.begin(), request.ending.end());
     Label label{
@@ -253,10 +252,10 @@ core::Status PictureDrawer::submitFrameBefore(
         before.view = taa::makeJittered(before.view, scene::numberFrame(view.exposure) - age);
     before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
-    std::vector<render::PostEffect*> effects{prepareTaa(request)};
+    std::vector<render::Effect*> effects{prepareTaa(request)};
     // In each frame: particles that the method draws itself must not be accumulated as static.
     if (usesFrameBefore(request.method))
-        for (render::PostEffect* effect : prepareBlurs(request, {}))
+        for (render::Effect* effect : prepareBlurs(request, {}))
             effects.push_back(effect);
     std::erase(effects, nullptr);
     return submitFrame(
@@ -277,7 +276,7 @@ PictureDrawer::submitIntermediates(const scene::World& world, const PictureReque
     raster.isFollowed = false;
     raster.wantColor = raster.wantDisplay = raster.showsDisplay = raster.wantDump = false;
     raster.shownIntermediates.clear();
-    const std::vector<render::PostEffect*> effects = prepareBlurs(request, {});
+    const std::vector<render::Effect*> effects = prepareBlurs(request, {});
     Label label{
         .slot = request.slot,
         .isFirst = false,

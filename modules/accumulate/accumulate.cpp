@@ -103,7 +103,7 @@ render::Needs Accumulate::decide(const render::DecideContext&) const {
     return {.run = {true, "every frame of the picture is added"}};
 }
 
-void Accumulate::declare(render::PostContext& context) {
+void Accumulate::declare(render::PictureContext& context) {
     struct Data {
         graph::ImageHandle color;
         graph::ImageHandle sum;

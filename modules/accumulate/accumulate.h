@@ -6,7 +6,7 @@
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 #include <optional>
@@ -44,7 +44,7 @@ struct SummedFrame {
 };
 
 /// Adds each frame's colour to a sum. Call setFrame() or setInstant() before each frame.
-class Accumulate : public render::PostEffect {
+class Accumulate : public render::Effect {
   public:
     explicit Accumulate(gpu::Device& device);
 
@@ -58,7 +58,7 @@ class Accumulate : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
 
   private:
     gpu::Device& mDevice;

@@ -124,7 +124,7 @@ core::Decision Bloom::decideRun(const render::ViewFacts& facts) const {
     return {true, "the lens scatters the light of highlights"};
 }
 
-void Bloom::declare(render::PostContext& context) {
+void Bloom::declare(render::PictureContext& context) {
     graph::Graph& graph = context.graph;
     std::vector<graph::ImageHandle> levels{context.color};
     VkExtent2D size{context.facts.width, context.facts.height};

@@ -6,7 +6,7 @@
 #include "engine/core/setting_row.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 
@@ -43,7 +43,7 @@ struct BloomSettings {
 ///
 /// Where the last picture is known (ViewFacts::lastBrightest) and had no highlight, it does not
 /// run: a highlight that appears glows as many pictures later as it takes to know of it.
-class Bloom : public render::PostEffect {
+class Bloom : public render::Effect {
   public:
     /// \param settings valid
     Bloom(gpu::Device& device, const BloomSettings& settings);
@@ -54,7 +54,7 @@ class Bloom : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "bloom"; }
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
 
   private:
     [[nodiscard]] core::Decision decideRun(const render::ViewFacts& facts) const;

@@ -143,7 +143,7 @@ render::Needs DebugView::decide(const render::DecideContext&) const {
     return {.run = {true, "an intermediate is shown: " + mView}};
 }
 
-void DebugView::declare(render::PostContext& context) {
+void DebugView::declare(render::PictureContext& context) {
     const View* view = findOwn(mView);
     const auto& made = context.intermediates.images();
     const std::set<std::string> sources = listSources(mView);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/gpu/pipeline.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 #include <set>
@@ -37,7 +37,7 @@ struct ViewInfo {
 [[nodiscard]] std::set<std::string> listSources(std::string_view view);
 
 /// After the tone mapper. Where an intermediate was not made in this frame, the picture stays.
-class DebugView : public render::PostEffect {
+class DebugView : public render::Effect {
   public:
     explicit DebugView(gpu::Device& device);
 
@@ -52,7 +52,7 @@ class DebugView : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
 
   private:
     VkSampler mSampler;

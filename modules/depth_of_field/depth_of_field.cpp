@@ -135,7 +135,7 @@ void DepthOfField::extract(render::ExtractContext& context) {
             scene::computeLensRadius(lens, context.motion.cameraYFov(s)) / pixelWidthAtOne;
 }
 
-void DepthOfField::declare(render::PostContext& context) {
+void DepthOfField::declare(render::PictureContext& context) {
     mHasTraced.at(context.slot) = false;
     if (!(mConfusionPx > 0.0))
         return;
@@ -180,7 +180,7 @@ graph::ImageHandle DepthOfField::addReach(
 }
 
 graph::ImageHandle DepthOfField::addFilter(
-    const render::PostContext& context,
+    const render::PictureContext& context,
     graph::ImageHandle reach,
     const shader::LensFilterParams& params
 ) {
@@ -208,7 +208,7 @@ graph::ImageHandle DepthOfField::addFilter(
 }
 
 LensRaysOutputs DepthOfField::addRays(
-    const render::PostContext& context,
+    const render::PictureContext& context,
     graph::ImageHandle reach,
     const shader::LensFilterParams& params
 ) {

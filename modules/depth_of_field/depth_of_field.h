@@ -7,7 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "modules/depth_of_field/filters.h"
 #include "modules/depth_of_field/lens_rays.h"
 #include "shaders/depth_of_field/depth_of_field_shared.h"
@@ -37,7 +37,7 @@ struct DepthOfFieldSettings {
 /// Filters the linear picture by the camera's lens at the raster instant; without a lens the
 /// picture does not change. Circles of confusion are discs regardless of the lens's blades and
 /// squeeze, and at most shader::kReachTiles tiles in radius. Writes RGBA16F.
-class DepthOfField : public render::PostEffect {
+class DepthOfField : public render::Effect {
   public:
     /// \param sceneLayout of the scene's textures, for filters that trace rays
     explicit DepthOfField(gpu::Device& device, VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE);
@@ -51,7 +51,7 @@ class DepthOfField : public render::PostEffect {
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
     void finish(render::FinishedFrame& frame) override;
 
   private:
@@ -62,12 +62,12 @@ class DepthOfField : public render::PostEffect {
         graph::Graph& graph, graph::ImageHandle tiles, const shader::LensFilterParams& params
     ) const;
     [[nodiscard]] graph::ImageHandle addFilter(
-        const render::PostContext& context,
+        const render::PictureContext& context,
         graph::ImageHandle reach,
         const shader::LensFilterParams& params
     );
     [[nodiscard]] LensRaysOutputs addRays(
-        const render::PostContext& context,
+        const render::PictureContext& context,
         graph::ImageHandle reach,
         const shader::LensFilterParams& params
     );

@@ -20,7 +20,7 @@ struct LensRaysInputs {
     graph::ImageHandle motionDepth;
     graph::ImageHandle reach; ///< of `lens reach`
     graph::RayScene rays;
-    uint32_t slot = 0; ///< render::PostContext::slot
+    uint32_t slot = 0; ///< render::PictureContext::slot
 };
 
 struct LensRaysOutputs {

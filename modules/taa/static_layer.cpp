@@ -134,7 +134,7 @@ void StaticLayer::extract(const render::ExtractContext& context) {
     mRecord = std::move(now);
 }
 
-StaticLayer::Frame StaticLayer::turn(const render::PostContext& context) {
+StaticLayer::Frame StaticLayer::turn(const render::PictureContext& context) {
     SHUTTER_CHECK(isGathering(), "nothing is static before a camera that moves");
     Frame frame = mFrame;
     frame.hasLast = mHasLast;

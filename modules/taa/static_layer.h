@@ -6,7 +6,7 @@
 #include "engine/extract/raster_record.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/contexts.h"
 #include "shaders/taa/taa_shared.h"
 
 #include <array>
@@ -43,7 +43,7 @@ class StaticLayer {
 
     /// \param context of the frame that extract() was called for, which gathers; the slot's last
     /// frame must be finished
-    [[nodiscard]] Frame turn(const render::PostContext& context);
+    [[nodiscard]] Frame turn(const render::PictureContext& context);
 
     /// Drops the history; its memory is freed once the GPU has finished with it.
     void forget();

@@ -45,7 +45,8 @@ struct Data {
     graph::ImageHandle keptRow;
 };
 
-shader::TaaParams makeParams(const render::PostContext& context, const StaticLayer::Frame& frame) {
+shader::TaaParams
+makeParams(const render::PictureContext& context, const StaticLayer::Frame& frame) {
     shader::TaaParams params{};
     params.sizePx = {context.facts.width, context.facts.height};
     params.jitterPx = math::vec2(context.view.jitterPx);
@@ -96,7 +97,7 @@ void Taa::extract(render::ExtractContext& context) {
     context.colorJitterPx = math::dvec2(0.0);
 }
 
-void Taa::declare(render::PostContext& context) {
+void Taa::declare(render::PictureContext& context) {
     if (!mStatic.isGathering())
         return;
     graph::Graph& graph = context.graph;

@@ -6,7 +6,7 @@
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/math/math.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "modules/taa/static_layer.h"
 
 #include <cstdint>
@@ -43,7 +43,7 @@ makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 /// picture before the motion blur. The view must be one of makeJittered(); afterwards its colour
 /// has no jitter (ExtractContext::colorJitterPx), other images of the raster remain jittered where
 /// the surface is static. Memory: 20 bytes per pixel: sum, count and row.
-class Taa : public render::PostEffect {
+class Taa : public render::Effect {
   public:
     explicit Taa(gpu::Device& device);
 
@@ -54,7 +54,7 @@ class Taa : public render::PostEffect {
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
     void finish(render::FinishedFrame& frame) override;
 
   private:

@@ -49,7 +49,7 @@ render::Needs Tonemap::decide(const render::DecideContext& context) const {
     return {.run = {true, "a picture for a display is wanted"}};
 }
 
-void Tonemap::declare(render::PostContext& context) {
+void Tonemap::declare(render::PictureContext& context) {
     struct Data {
         graph::ImageHandle color;
         graph::ImageHandle display;
@@ -90,7 +90,7 @@ void Tonemap::declare(render::PostContext& context) {
     context.display = pass.display;
 }
 
-graph::BufferHandle Tonemap::prepareBrightest(render::PostContext& context) {
+graph::BufferHandle Tonemap::prepareBrightest(render::PictureContext& context) {
     Brightest& own = mBrightest.at(context.slot);
     own.groupCount = 0;
     if (!context.facts.brightestWanted)

@@ -7,7 +7,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/image/image.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <array>
 #include <cstdint>
@@ -31,9 +31,10 @@ struct TonemapSettings {
 /// 2^EV, the factor before the operator.
 [[nodiscard]] float computeGain(const TonemapSettings& settings);
 
-/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8). On request
-/// (ViewFacts::brightestWanted) also measures render::kBrightest, since it reads each pixel anyway.
-class Tonemap : public render::PostEffect {
+/// Runs when a display-encoded picture is wanted; writes PictureContext::display (RGBA8). On
+/// request (ViewFacts::brightestWanted) also measures render::kBrightest, since it reads each pixel
+/// anyway.
+class Tonemap : public render::Effect {
   public:
     Tonemap(gpu::Device& device, const TonemapSettings& settings);
 
@@ -45,12 +46,12 @@ class Tonemap : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
     void finish(render::FinishedFrame& frame) override;
 
   private:
     /// Makes the buffer for a slot's group results. \return invalid: not requested
-    [[nodiscard]] graph::BufferHandle prepareBrightest(render::PostContext& context);
+    [[nodiscard]] graph::BufferHandle prepareBrightest(render::PictureContext& context);
 
     /// Results of a frame's groups.
     struct Brightest {

@@ -76,7 +76,7 @@ render::Needs Truth::decide(const render::DecideContext&) const {
         .exposure = {true, "its rays meet none"}};
 }
 
-Truth::Images Truth::importSums(render::PostContext& context) {
+Truth::Images Truth::importSums(render::PictureContext& context) {
     gpu::ImageDesc desc;
     desc.width = context.facts.width;
     desc.height = context.facts.height;
@@ -98,7 +98,7 @@ Truth::Images Truth::importSums(render::PostContext& context) {
     return {import(mSumA), import(mSumB)};
 }
 
-void Truth::declare(render::PostContext& context) {
+void Truth::declare(render::PictureContext& context) {
     SHUTTER_CHECK(context.timedRays, "truth needs moving rays");
     using graph::Access;
     const render::ViewFacts& facts = context.facts;

@@ -7,7 +7,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <cstdint>
 #include <optional>
@@ -38,7 +38,7 @@ planBatches(uint64_t pixels, uint32_t rays, std::span<const uint32_t> stops);
 
 /// Adds a batch of rays to a sum each frame; the context's colour becomes the mean of all so far.
 /// Call setBatch() before each frame. Reads nothing of the G-buffer.
-class Truth : public render::PostEffect {
+class Truth : public render::Effect {
   public:
     Truth(gpu::Device& device, const gpu_scene::GpuScene& scene, const TruthSettings& settings);
 
@@ -57,7 +57,7 @@ class Truth : public render::PostEffect {
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
 
     /// Publishes "error": the standard error per pixel and channel.
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
     /// One frame at a time: the next may be declared once this was called.
     void finish(render::FinishedFrame& frame) override;
 
@@ -67,7 +67,7 @@ class Truth : public render::PostEffect {
         graph::ImageHandle sumB;
     };
 
-    Images importSums(render::PostContext& context);
+    Images importSums(render::PictureContext& context);
 
     gpu::Device& mDevice;
     TruthSettings mSettings;

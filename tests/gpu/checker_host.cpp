@@ -160,7 +160,7 @@ std::vector<uint32_t> findMovers(const CheckedDrawing& drawn) {
 }
 
 /// Takes down which entities the rows of a frame are.
-class RowDescriber : public render::PostEffect {
+class RowDescriber : public render::Effect {
   public:
     [[nodiscard]] std::string name() const override { return "rows"; }
 
@@ -168,7 +168,7 @@ class RowDescriber : public render::PostEffect {
         return {.run = {true, "rows are taken down"}};
     }
 
-    void declare(render::PostContext& context) override {
+    void declare(render::PictureContext& context) override {
         mEntities = context.frame.entityHandles;
         mDeforms.assign(mEntities.size(), false);
         for (const extract::DeformedEntity& one : context.frame.deformed)
@@ -254,7 +254,7 @@ draw(render::Renderer& renderer, const CheckedScene& scene, int number, double f
     request.view.exposure.open = request.view.exposure.close - frames * kFrameSeconds;
     request.intermediates = {"motion", "mesh_id"};
     RowDescriber describer;
-    const std::array<render::PostEffect*, 1> effects{&describer};
+    const std::array<render::Effect*, 1> effects{&describer};
     const auto result = renderer.renderFrame(scene.shot.world, request, effects);
     if (!result)
         return result.error();

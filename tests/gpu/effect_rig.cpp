@@ -40,7 +40,7 @@ EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, ui
     facts.displayWanted = true;
 }
 
-core::Decision decide(const render::PostEffect& effect, const render::ViewFacts& facts) {
+core::Decision decide(const render::Effect& effect, const render::ViewFacts& facts) {
     scene::World world;
     const ecs::Entity camera = world.registry.create();
     world.registry.add(camera, scene::Camera{});

@@ -3,7 +3,7 @@
 // effect gets its context.
 #pragma once
 
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "tests/kit/graph_rig.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace shutter::test {
 /// GraphRig::run() that fails the test, and returns an empty plan, if the graph does not compile.
 graph::Plan run(GraphRig& rig);
 
-/// What a post effect is given, around one picture.
+/// What an effect is given, around one picture.
 struct EffectRig {
     EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height);
 
@@ -24,12 +24,11 @@ struct EffectRig {
     render::GBuffer gbuffer;
     render::Intermediates intermediates{{}};
     render::Explainer explainer;
-    render::PostContext context;
+    render::PictureContext context;
 };
 
 /// Whether the effect runs in a frame of an empty world.
-[[nodiscard]] core::Decision
-decide(const render::PostEffect& effect, const render::ViewFacts& facts);
+[[nodiscard]] core::Decision decide(const render::Effect& effect, const render::ViewFacts& facts);
 
 /// The shader that adds pictures: with index 0, rgb = source's rgb times the scale. Something to
 /// dispatch, pushed AccumulateParams.

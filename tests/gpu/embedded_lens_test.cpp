@@ -79,7 +79,7 @@ class EmbeddedLens : public test::StagedTest {
         mStage->shutter.exposureSeconds = moves ? 0.25 : 0.0;
         mStage->frameSeconds = 0.25;
         mStage->shutter.phase = scene::ShutterPhase::End;
-        mStage->host.changeInputs = [this](const render::PostContext&, HostInputs& inputs) {
+        mStage->host.changeInputs = [this](const render::PictureContext&, HostInputs& inputs) {
             inputs.motion.lens = describeLens(mScene.world, mScene.camera);
             if (mChange)
                 mChange(inputs);

@@ -86,7 +86,7 @@ TEST_F(EmbeddedPictures, TheCameraAloneIsFollowedAsByThePlugin) {
             scene.moveCamera({.velocity = {0.4, 0.1, -0.3}, .angularVelocity = {0.02, 0.1, 0.05}});
         const MotionBlurSettings settings = settingsOf("rosado2007");
         BlurStage stage(device(), scene, *mBlur, blurOfC(), settings, settings);
-        stage.host.changeInputs = [&](const render::PostContext& context, auto& inputs) {
+        stage.host.changeInputs = [&](const render::PictureContext& context, auto& inputs) {
             inputs.rays = {};
             inputs.convention.cameras = test::declareCameras(scene.world, context.view);
             inputs.convention.scales.exposureShare = 1.0f;
@@ -354,7 +354,7 @@ class EmbeddedLayer : public test::StagedTest {
             stage.declareMotion(describer);
         render::BlendedLayerPass pass(device(), stage.renderer.scene());
         extract::BlendedLayer layer;
-        stage.host.changeInputs = [&](const render::PostContext& context, HostInputs&) {
+        stage.host.changeInputs = [&](const render::PictureContext& context, HostInputs&) {
             layer = plan(scene, stage, settings, context);
             ASSERT_FALSE(layer.empty());
             ASSERT_FALSE(layer.readsInstants) << "the host has one part";
@@ -373,7 +373,7 @@ class EmbeddedLayer : public test::StagedTest {
             without.result.intermediates.at("layer opacity")
         );
         submit([&](VkCommandBuffer commands) { texels.record(commands); });
-        stage.host.changeInputs = [&](const render::PostContext&, HostInputs& inputs) {
+        stage.host.changeInputs = [&](const render::PictureContext&, HostInputs& inputs) {
             inputs.blended = texels.describe();
             inputs.blended.after = inputs.blended.before; // three recordings read it
         };
@@ -385,7 +385,7 @@ class EmbeddedLayer : public test::StagedTest {
         const test::SceneBuilder& scene,
         const test::BlurStage& stage,
         const MotionBlurSettings& settings,
-        const render::PostContext& context
+        const render::PictureContext& context
     ) {
         const scene::ExposureMotion motion(scene.world, context.view.camera, context.view.exposure);
         extract::LayerLimits limits;

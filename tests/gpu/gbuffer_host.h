@@ -33,7 +33,7 @@ namespace shutter::test {
 /// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
 /// they happen to have. Blurs it into another picture (view 0) and, a copy of it, in place (view
 /// 1); the frame continues with the original.
-class HostOfTheGBuffer : public render::PostEffect {
+class HostOfTheGBuffer : public render::Effect {
   public:
     HostOfTheGBuffer(
         gpu::Device& device,
@@ -54,7 +54,7 @@ class HostOfTheGBuffer : public render::PostEffect {
     std::vector<math::ResponsePoint> responseForC;
     int64_t frameNumber = 0;
     /// Describes the motion in the frame. Referenced objects must live until the frame is recorded.
-    std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
+    std::function<void(const render::PictureContext&, motion_blur::HostMotion&)> describeMotion;
 
     bool dropsIds = false; ///< the host has none
 
@@ -62,7 +62,7 @@ class HostOfTheGBuffer : public render::PostEffect {
     std::function<void(motion_blur::HostInputs&)> takeRays;
     /// Changes inputs of the host, but the images of the G-buffer. Referenced objects must live
     /// until the frame has ended.
-    std::function<void(const render::PostContext&, motion_blur::HostInputs&)> changeInputs;
+    std::function<void(const render::PictureContext&, motion_blur::HostInputs&)> changeInputs;
 
     [[nodiscard]] std::string name() const override { return "host"; }
 
@@ -70,7 +70,7 @@ class HostOfTheGBuffer : public render::PostEffect {
         return {.run = {true, "the test reads it"}, .normals = true};
     }
 
-    void declare(render::PostContext& context) override {
+    void declare(render::PictureContext& context) override {
         struct Data {
             graph::ImageHandle color, motionDepth, normal, entityId;
         };
@@ -207,7 +207,7 @@ class MotionDescriber {
 
     void declare(
         const scene::World& world,
-        const render::PostContext& context,
+        const render::PictureContext& context,
         motion_blur::HostMotion& motion
     ) {
         const scene::ExposureInterval& exposure = context.view.exposure;
@@ -331,7 +331,7 @@ class BlurStage {
     }
 
     StagedFrame draw() {
-        const std::array<render::PostEffect*, 2> effects{&host, &mPlugin};
+        const std::array<render::Effect*, 2> effects{&host, &mPlugin};
         auto drawn = renderer.renderFrame(mScene.world, makeRequest(), effects);
         EXPECT_TRUE(drawn.ok()) << drawn.error().message;
         StagedFrame frame{std::move(drawn).value(), host.output.read(), host.inPlace.read(), {}};
@@ -347,7 +347,8 @@ class BlurStage {
 
     /// With each frame of the host's.
     void declareMotion(MotionDescriber& describer) {
-        host.describeMotion = [this, &describer](const render::PostContext& context, auto& motion) {
+        host.describeMotion = [this,
+                               &describer](const render::PictureContext& context, auto& motion) {
             describer.declare(mScene.world, context, motion);
         };
     }

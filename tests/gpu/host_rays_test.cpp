@@ -192,7 +192,7 @@ class OwnRays : public test::StagedTest {
         const auto* lens = mScene.world.registry.find<scene::CameraLens>(mScene.camera);
         stage.request.view.usesLens = lens != nullptr;
         rays.focusDistance = lens ? float(lens->focusDistance) : 0.0f;
-        stage.host.changeInputs = [&](const render::PostContext& context, HostInputs& inputs) {
+        stage.host.changeInputs = [&](const render::PictureContext& context, HostInputs& inputs) {
             std::optional<graph::TimedRays> timed;
             if (context.timedRays)
                 timed = *context.timedRays;
@@ -314,7 +314,7 @@ TEST_F(EmbeddedIds, IdsWithoutRowsRevealNothingAndAHitEntityMayHaveNone) {
     // Draws a host whose table ends after `rowCount` rows: later rows are invalid.
     const auto draw = [&](uint32_t rowCount) {
         stage.host.changeInputs =
-            [&, rowCount](const render::PostContext& context, HostInputs& inputs) {
+            [&, rowCount](const render::PictureContext& context, HostInputs& inputs) {
                 EXPECT_EQ(context.frame.entities.size(), kRows);
                 std::vector<shader::EntityRow> rows = context.frame.entities;
                 for (uint32_t i = rowCount; i < rows.size(); ++i)

@@ -175,7 +175,7 @@ TEST_F(UiOnWindow, FramesInFlightDrawFromTheirOwnData) {
     tonemap::Tonemap tonemap(device(), {});
     app::WindowOutput window(device());
     app::Ui ui(device());
-    const std::vector<render::PostEffect*> effects{&tonemap, &window};
+    const std::vector<render::Effect*> effects{&tonemap, &window};
     render::FrameRequest request;
     request.view.camera = scene.camera;
     request.view.width = kWidth;

@@ -109,7 +109,7 @@ TEST_F(DemandLaw, HybridWithoutRaysIsSkippedInFrontOfTheSkyToo) {
     request.view.exposure = scene::computeExposure({1.0}, 0.0);
     request.view.width = request.view.height = 64;
     request.wantReasons = true;
-    render::PostEffect* effects[] = {&blur};
+    render::Effect* effects[] = {&blur};
     const auto frame = renderer.renderFrame(scene.world, request, effects);
     ASSERT_TRUE(frame.ok());
     EXPECT_NE(test::describeMotionBlur(frame.value()).find("needs rays"), std::string::npos);
@@ -580,7 +580,7 @@ Sequence drawSequence(gpu::Device& device, const std::string& method, uint32_t f
     motion_blur::MotionBlurPlugin blur(
         device, renderer.scene(), {.method = &motion_blur::getMethod(method)}
     );
-    std::array<render::PostEffect*, 1> effects{&blur};
+    std::array<render::Effect*, 1> effects{&blur};
     Sequence sequence;
     const auto finish = [&] {
         render::FrameResult result = renderer.finishFrame();

@@ -3,7 +3,7 @@
 // millimetre behind.
 #include "engine/gpu/memory.h"
 #include "engine/gpu/vulkan.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
 #include "shaders/motion_blur/hybrid_shared.h"
@@ -25,7 +25,7 @@ constexpr double kGap = 1e-3;     // metres between the two surfaces
 constexpr double kYFov = 0.6;
 
 /// The reveal of every pixel, as if the mask were full; one ray each.
-class RevealEverywhere : public render::PostEffect {
+class RevealEverywhere : public render::Effect {
   public:
     RevealEverywhere(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mReveal(device, scene.textureLayout()) {}
@@ -37,7 +37,7 @@ class RevealEverywhere : public render::PostEffect {
             .run = {true, "every pixel is traced"}, .rays = {true, "it is held against raster"}};
     }
 
-    void declare(render::PostContext& context) override {
+    void declare(render::PictureContext& context) override {
         fillList(context.facts.width, context.facts.height);
         motion_blur::MotionBlurSettings settings;
         settings.recursionLimit = 2; // the raster's surface and one ray
@@ -144,7 +144,7 @@ TEST_F(SelfIntersection, AtMostOneOfAHundredThousandRaysHitsItsSurfaceAgainOrMis
         request.view.camera = scene.camera;
         request.view.width = request.view.height = kSizePx;
         request.intermediates = {"mesh_id", "reveal_id"};
-        const std::array<render::PostEffect*, 1> effects{&reveal};
+        const std::array<render::Effect*, 1> effects{&reveal};
         const auto frame = need(renderer.renderFrame(scene.world, request, effects));
         uint64_t rays = 0;
         uint64_t again = 0;

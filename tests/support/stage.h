@@ -52,7 +52,7 @@ struct Shot {
     std::set<std::string> aovs{};
     bool wantDisplay = false;
     /// Declared after the method's own effects and the tone map; null: none.
-    render::PostEffect* last = nullptr;
+    render::Effect* last = nullptr;
 };
 
 /// A world that is uploaded once and drawn, by game::PictureDrawer, as often as one likes. Entities

@@ -27,7 +27,7 @@ core::Status draw(const char* scene, const char* out) {
     motion_blur::MotionBlurPlugin blur(*device.value(), renderer.scene(), settings);
     Vignette vignette(*device.value(), 1.0f);
     tonemap::Tonemap tonemap(*device.value(), {});
-    const std::array<render::PostEffect*, 3> effects{&blur, &vignette, &tonemap};
+    const std::array<render::Effect*, 3> effects{&blur, &vignette, &tonemap};
     auto frame = renderer.renderFrame(world, request, effects);
     return frame ? io::writeImage(out, frame.value().display) : frame.error();
 }

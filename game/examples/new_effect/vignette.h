@@ -2,11 +2,11 @@
 // A custom post effect: darkens the picture towards its corners, in place.
 #pragma once
 #include "engine/graph/execute.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 
 #include <spirv/vignette.comp.h>
 
-class Vignette : public shutter::render::PostEffect {
+class Vignette : public shutter::render::Effect {
     float mLoss;
     shutter::gpu::Pipeline mPipeline;
 
@@ -21,7 +21,7 @@ class Vignette : public shutter::render::PostEffect {
         return {.run = {mLoss > 0.0f, "light is lost"}};
     }
 
-    void declare(shutter::render::PostContext& context) override {
+    void declare(shutter::render::PictureContext& context) override {
         using namespace shutter::graph;
         const auto setup = [&](PassBuilder& builder, ImageHandle& color) {
             color = builder.write(context.color, Access::StorageWrite);

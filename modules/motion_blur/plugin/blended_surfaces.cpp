@@ -105,7 +105,7 @@ void BlendedSurfaces::count(uint32_t slot, render::Counters& counters) const {
 }
 
 graph::ImageHandle
-BlendedSurfaces::declare(render::PostContext& context, const MotionBlurOutputs& blurred) {
+BlendedSurfaces::declare(render::PictureContext& context, const MotionBlurOutputs& blurred) {
     const Plan& plan = mPlans.at(context.slot);
     context.particleInstants.reset();
     if (plan.particles && !blurred.surfaces.empty()) {
@@ -124,7 +124,7 @@ BlendedSurfaces::declare(render::PostContext& context, const MotionBlurOutputs& 
 }
 
 graph::ImageHandle BlendedSurfaces::declareLayer(
-    const render::PostContext& context,
+    const render::PictureContext& context,
     const extract::BlendedLayer& layer,
     graph::ImageHandle blurred,
     graph::BufferHandle surfaces

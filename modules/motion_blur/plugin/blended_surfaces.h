@@ -5,7 +5,7 @@
 
 #include "engine/extract/particle_instants.h"
 #include "engine/render/blended_layer.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/contexts.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/passes/composite.h"
 
@@ -29,9 +29,9 @@ class BlendedSurfaces {
     [[nodiscard]] std::vector<shader::InstantSurfaces> wanted(uint32_t slot) const;
 
     /// Draws the layer over the blurred picture of the frame that extract() was called for, and
-    /// fills PostContext::particleInstants. \return the picture with the layer
+    /// fills PictureContext::particleInstants. \return the picture with the layer
     [[nodiscard]] graph::ImageHandle
-    declare(render::PostContext& context, const MotionBlurOutputs& blurred);
+    declare(render::PictureContext& context, const MotionBlurOutputs& blurred);
 
     /// Adds "blended instants" and "blended bytes", the memory that the slot's layer took, and
     /// "particle instants" and "particle bytes" likewise; nothing where there was none.
@@ -52,7 +52,7 @@ class BlendedSurfaces {
     };
 
     graph::ImageHandle declareLayer(
-        const render::PostContext& context,
+        const render::PictureContext& context,
         const extract::BlendedLayer& layer,
         graph::ImageHandle blurred,
         graph::BufferHandle surfaces

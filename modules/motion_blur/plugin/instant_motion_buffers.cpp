@@ -82,7 +82,7 @@ void InstantMotionBuffers::extract(
     mHasHistory = hasHistory;
 }
 
-InstantMotions InstantMotionBuffers::declare(const render::PostContext& context) {
+InstantMotions InstantMotionBuffers::declare(const render::PictureContext& context) {
     InstantMotions motions;
     const WrittenLayers written = writeInstantLayers(
         mDevice, mTables, {context.facts.width, context.facts.height}, mBuffers.at(context.slot)
@@ -122,7 +122,7 @@ InstantMotions InstantMotionBuffers::declare(const render::PostContext& context)
     return motions;
 }
 
-DrawWays InstantMotionBuffers::declareWays(const render::PostContext& context) {
+DrawWays InstantMotionBuffers::declareWays(const render::PictureContext& context) {
     if (mTables.rasterWays.empty() && mTables.lastWays.empty() && mTables.secondWays.empty())
         return {};
     auto& ways = mWays.at(context.slot);

@@ -6,7 +6,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu_scene/gpu_scene.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/contexts.h"
 #include "engine/render/shape_ways.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/instant_motions.h"
@@ -41,14 +41,14 @@ class InstantMotionBuffers {
 
     /// \param context of the frame that extract() was called for; the slot's last frame must be
     /// finished
-    [[nodiscard]] InstantMotions declare(const render::PostContext& context);
+    [[nodiscard]] InstantMotions declare(const render::PictureContext& context);
 
     /// Discards stored rasters and their memory.
     void forget();
 
   private:
     /// \return empty where nothing deforms
-    [[nodiscard]] DrawWays declareWays(const render::PostContext& context);
+    [[nodiscard]] DrawWays declareWays(const render::PictureContext& context);
     [[nodiscard]] extract::InstantTables
     computeTables(const render::ExtractContext& context, const Instants& instants) const;
 

@@ -180,7 +180,7 @@ void MotionBlurPlugin::extract(render::ExtractContext& context) {
     mBlended.extract(context, limits);
 }
 
-void MotionBlurPlugin::declare(render::PostContext& context) {
+void MotionBlurPlugin::declare(render::PictureContext& context) {
     MotionBlurInputs inputs;
     inputs.color = context.color;
     inputs.motionDepth = context.gbuffer.motionDepth;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/idle_counter.h"
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/motion_blur.h"
@@ -28,7 +28,7 @@ enum class UntilReady : uint8_t {
 /// or the budget's. Its reason is that method's name.
 [[nodiscard]] std::string nameReplacement(const Method& wanted);
 
-class MotionBlurPlugin : public render::PostEffect {
+class MotionBlurPlugin : public render::Effect {
   public:
     /// Settings and budget must be valid.
     MotionBlurPlugin(
@@ -59,7 +59,7 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] render::Needs decide(const render::DecideContext& context) const override;
     void extract(render::ExtractContext& context) override;
 
-    void declare(render::PostContext& context) override;
+    void declare(render::PictureContext& context) override;
     /// Measures the effect's time and, under a budget, its level.
     void finish(render::FinishedFrame& frame) override;
 

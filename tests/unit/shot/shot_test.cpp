@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Clips, instants, methods and the passes that count as theirs.
-#include "engine/render/post_effect.h"
+#include "engine/render/effect.h"
 #include "game/shot/clips.h"
 #include "game/shot/methods.h"
 #include "game/shot/picture_drawer.h"
@@ -244,12 +244,12 @@ PassGroup groupIn(const char* method, PassOwner owner) {
 }
 
 /// An effect with the minimal interface.
-class PlainEffect : public render::PostEffect {
+class PlainEffect : public render::Effect {
     [[nodiscard]] std::string name() const override { return "plain"; }
 
     [[nodiscard]] render::Needs decide(const render::DecideContext&) const override { return {}; }
 
-    void declare(render::PostContext&) override {}
+    void declare(render::PictureContext&) override {}
 };
 
 TEST(PassGroups, AMethodPaysForItsBlurItsRaysAndAllThatItDrawsItself) {
