@@ -189,6 +189,8 @@ TEST_F(Keeper, WithoutAGpuTheBudgetIsAShareOfTheFrameAndAPresetOfTheOptionsStays
     settings.budget.milliseconds = 16.0;
     PlayOptions options;
     EXPECT_NE(SettingsKeeper::slowDown(options, settings), "");
+    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::None);
+    settings.picture.shadows.mode = extract::ShadowMode::Blurred;
     EXPECT_TRUE(isApplied(*findPreset("performance").value(), settings));
     EXPECT_TRUE(settings.budget.isUnlimited());
     EXPECT_EQ(settings.budgetShare, 0.25);
@@ -199,6 +201,10 @@ TEST_F(Keeper, WithoutAGpuTheBudgetIsAShareOfTheFrameAndAPresetOfTheOptionsStays
     EXPECT_EQ(computeBudget(settings, 300.0).milliseconds, 16.0);
     settings.budgetShare = 1.0;
     EXPECT_EQ(computeBudget(settings, 3.0).milliseconds, 16.0);
+    options.typed.insert("--shadows");
+    options.shot.picture.shadows.mode = extract::ShadowMode::Sharp;
+    EXPECT_NE(SettingsKeeper::slowDown(options, settings), "");
+    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Sharp) << "an option's";
     options.preset = findPreset("quality").value();
     settings.method = "adaptive";
     EXPECT_EQ(SettingsKeeper::slowDown(options, settings), "");
