@@ -197,7 +197,7 @@ struct ExtractedFrame {
     bool mirrors = false;                   ///< the view turns windings round (FrameView::mirrors)
 };
 
-/// Whether the row is one of those, which rise.
+/// Whether `row` is one of `rows`, which are in rising order.
 [[nodiscard]] inline bool isTaken(std::span<const uint32_t> rows, uint32_t row) {
     return std::binary_search(rows.begin(), rows.end(), row);
 }

@@ -33,7 +33,7 @@ struct TlasHandles {
     graph::BufferHandle deformedBuffer; ///< BLASes of deformed meshes: likewise
 };
 
-/// A frame, and which rays its instances exclude.
+/// A frame, and the masks by which rays exclude its instances.
 struct MaskedFrame {
     const extract::ExtractedFrame& frame;
     std::span<const extract::RowMask> masks; ///< of assignInstanceMasks()

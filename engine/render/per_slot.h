@@ -27,8 +27,8 @@ template <class T> class PerSlot {
         return *object;
     }
 
-    /// Frees the slot's after a frame that was declared and not submitted: it has noted as done
-    /// what the GPU never did.
+    /// Frees the slot's after a frame that was declared and not submitted, since it counts work as
+    /// done that the GPU never did.
     void drop(uint32_t slot) {
         mObjects.at(slot).reset();
         mIsUsed = false;
