@@ -26,41 +26,6 @@ std::vector<uint32_t> listBits(std::span<const uint32_t> taken, uint32_t rowCoun
     return bits;
 }
 
-/// Device addresses of a frame's tables; 0: there is none.
-struct TableAddresses {
-    VkDeviceAddress entities = 0;
-    VkDeviceAddress entityMotions = 0;
-    VkDeviceAddress lights = 0;
-    VkDeviceAddress geometries = 0;
-    VkDeviceAddress materials = 0;
-    VkDeviceAddress layerRows = 0;
-    VkDeviceAddress environment = 0;
-    VkDeviceAddress shadows = 0;
-    VkDeviceAddress movingTlas = 0;
-};
-
-/// The constants that shaders read.
-/// \param ofView those of the extracted frame, which have no addresses
-shader::FrameConstants composeConstants(
-    const shader::FrameConstants& ofView, uint32_t entityCount, const TableAddresses& tables
-) {
-    shader::FrameConstants constants = ofView;
-    constants.entityCount = entityCount;
-    constants.entities = gpu::splitAddress(tables.entities);
-    constants.entityMotions = gpu::splitAddress(tables.entityMotions);
-    constants.lights = gpu::splitAddress(tables.lights);
-    constants.geometries = gpu::splitAddress(tables.geometries);
-    constants.materials = gpu::splitAddress(tables.materials);
-    constants.layerRows = gpu::splitAddress(tables.layerRows);
-    if ((constants.flags & shader::kFrameEnvironment) != 0)
-        constants.environment = gpu::splitAddress(tables.environment);
-    constants.shadows = gpu::splitAddress(tables.shadows);
-    if (tables.shadows != 0)
-        constants.flags |= shader::kFrameShadows;
-    constants.movingTlas = gpu::splitAddress(tables.movingTlas);
-    return constants;
-}
-
 } // namespace
 
 FrameTables::Addresses FrameTables::upload(
@@ -89,18 +54,22 @@ FrameTables::Addresses FrameTables::upload(
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Stream
         );
-    TableAddresses tables;
-    tables.entities = mEntityTable.rows();
-    tables.entityMotions = mEntityTable.motions();
-    tables.lights = mBuffer.address() + lightsAt;
-    tables.geometries = deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt;
-    tables.materials = scene.materialTable();
-    tables.layerRows = layer.empty() ? 0 : mBuffer.address() + layerAt;
-    tables.environment = scene.environment();
-    tables.shadows = others.shadows;
-    tables.movingTlas = others.movingTlas;
-    const shader::FrameConstants constants =
-        composeConstants(frame.constants, mEntityTable.rowCount(), tables);
+    shader::FrameConstants constants = frame.constants; // which have no addresses
+    constants.entityCount = mEntityTable.rowCount();
+    constants.entities = gpu::splitAddress(mEntityTable.rows());
+    constants.entityMotions = gpu::splitAddress(mEntityTable.motions());
+    constants.lights = gpu::splitAddress(mBuffer.address() + lightsAt);
+    constants.geometries = gpu::splitAddress(
+        deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt
+    );
+    constants.layerRows = gpu::splitAddress(layer.empty() ? 0 : mBuffer.address() + layerAt);
+    constants.materials = gpu::splitAddress(scene.materialTable());
+    if ((constants.flags & shader::kFrameEnvironment) != 0)
+        constants.environment = gpu::splitAddress(scene.environment());
+    constants.shadows = gpu::splitAddress(others.shadows);
+    if (others.shadows != 0)
+        constants.flags |= shader::kFrameShadows;
+    constants.movingTlas = gpu::splitAddress(others.movingTlas);
     mBuffer.writeBytes(&constants, sizeof(constants), 0);
     mBuffer.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
     mBuffer.write(std::span<const uint32_t>(layer), layerAt);

@@ -12,7 +12,7 @@ SHUTTER_SHADER_BEGIN
 /// Length of the steps of a search for jumps along a motion, pixels.
 SHUTTER_CONST float kJumpStepPx = 8.0f;
 
-/// Of two motions that differ by less, one is searched, pixels.
+/// Motions that differ by less are searched once, pixels.
 SHUTTER_CONST float kAlikePx = 2.0f;
 
 /// A jump marks all blocks within this distance of it, so that no step passes over one.

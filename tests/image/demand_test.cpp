@@ -485,7 +485,7 @@ TEST_F(DemandLaw, ManyStaticInstancesHaveATlasThatIsBuiltOnce) {
     EXPECT_TRUE(test::hasPass(frames.hybrid(0.2), "build TLAS")) << "seen from another place";
 }
 
-TEST_F(DemandLaw, ATableThatMissedAFrameTakesAllRows) {
+TEST_F(DemandLaw, ATableWritesTheRowsAndMasksThatChangedAndAllAfterAFrameThatItMissed) {
     const Crowd crowd(40);
     const gpu_scene::GpuScene scene(device(), crowd.scene.world.assets);
     extract::FrameExtractor extractor;
