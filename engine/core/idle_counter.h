@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When what nothing uses any more is freed.
+// Decides when resources that are no longer used are freed.
 #pragma once
 
 #include <cstdint>

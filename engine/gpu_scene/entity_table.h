@@ -26,7 +26,7 @@ class EntityTable {
         uint64_t motions = 0;
     };
 
-    /// \param masks of the frame's rows; null: no ray needs them, and rows keep what they had
+    /// \param masks of the frame's rows; null: no ray reads masks, and rows keep theirs
     /// \param extra rows of this frame only, behind its own
     Written update(
         const extract::ExtractedFrame& frame,

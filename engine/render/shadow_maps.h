@@ -32,7 +32,7 @@ class ShadowMaps {
     /// Makes the tables. Error: the plan's maps do not fit an image of the device.
     core::Status prepare(extract::ShadowPlan plan);
 
-    /// Of the prepared plan's shader::ShadowConstants; 0: there are no shadows.
+    /// Returns the address of the prepared shader::ShadowConstants; 0 without shadows.
     [[nodiscard]] VkDeviceAddress constants() const {
         return mPlan.shadows.run ? mTables.address() : 0;
     }
