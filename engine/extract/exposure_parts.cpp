@@ -162,8 +162,7 @@ JumpSight::poseAt(ecs::Entity entity, uint32_t mesh, double seconds) const {
 bool JumpSight::isInView(const std::optional<Posed>& posed, double seconds) const {
     if (!posed)
         return false;
-    // Casters outside of the picture may cast a shadow into it.
-    if (mView.shadows.mode != ShadowMode::None)
+    if (mView.unseenMatters)
         return true;
     const dmat4 clipFromRelWorld =
         makeProjection(mCamera, mMotion.cameraYFov(shutterTimeOf(seconds)), mView) *
@@ -445,7 +444,7 @@ MotionParts planMotionParts(
         plan.count = std::max(plan.count, countCameraParts(motion, distance));
     if (motion.mayCameraZoom())
         plan.count = std::max(plan.count, 1u);
-    const bool castsShadows = view.shadows.mode != ShadowMode::None && !view.unlit;
+    const bool unseenMatters = view.unseenMatters && !view.unlit;
     const dvec3 eye(motion.worldFromCamera(view.exposure.rasterTime)[3]);
     for (const uint32_t row : frame.movingRows) {
         const ecs::Entity entity = frame.entityHandles[row];
@@ -455,13 +454,13 @@ MotionParts planMotionParts(
         plan.count = std::max(plan.count, way.parts);
         if (motion.mayDeform(entity))
             plan.count = std::max(plan.count, kDeformedParts);
-        if (!castsShadows || !(way.length > 0.0))
+        if (!unseenMatters || !(way.length > 0.0))
             continue;
         const dvec3 centre(worldAt(view.exposure.rasterTime) * math::dvec4(bounds.centre(), 1.0));
         const math::vec2 footprint = frame.constants.pixelFootprint;
         const double pixel = footprint.x * glm::length(centre - eye) + footprint.y;
         if (pixel > 0.0)
-            plan.casterPx = std::max(plan.casterPx, way.length / pixel);
+            plan.unseenPx = std::max(plan.unseenPx, way.length / pixel);
     }
     plan.movesLight = !view.unlit && movesAnyLight(world);
     return plan;

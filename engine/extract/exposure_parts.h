@@ -35,9 +35,10 @@ inline constexpr uint32_t kMaxMotionParts = 32;
 struct MotionParts {
     /// Parts of equal length, a power of two; 0: nothing moves or deforms, neither does the camera.
     uint32_t count = 0;
-    /// Longest motion of a shadow caster at its distance from the camera, pixels: an estimate of
-    /// the shadow's motion, whose caster may be outside of the picture. 0 without shadows.
-    double casterPx = 0.0;
+    /// Longest motion of an entity at its distance from the camera, pixels, which may be outside of
+    /// the picture: an estimate of how its effect on the picture moves. 0 unless
+    /// ViewRequest::unseenMatters.
+    double unseenPx = 0.0;
     /// A light moves that lights the picture.
     bool movesLight = false;
 };

@@ -5,7 +5,6 @@
 
 #include "engine/core/result.h"
 #include "engine/extract/deformed_entity.h"
-#include "engine/extract/shadow_settings.h"
 #include "engine/math/bounds.h"
 #include "engine/math/math.h"
 #include "engine/scene/assets.h"
@@ -102,7 +101,8 @@ struct ViewRequest {
     /// Where the scene has an environment: it is seen and lights, in place of the two colours.
     bool environment = true;
     bool particles = true; ///< those of the world's emitters are shown
-    ShadowSettings shadows{};
+    /// What is outside of the picture changes it, as what holds a light back does.
+    bool unseenMatters = false;
     uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities
 };
 

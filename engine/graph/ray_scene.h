@@ -6,6 +6,8 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/types.h"
 
+#include <vector>
+
 namespace shutter::graph {
 
 /// The scene at the raster instant.
@@ -17,7 +19,7 @@ struct RayScene {
     /// Access::ShaderRead; invalid where nothing is deformed.
     BufferHandle deformedBlasBuffer;
     BufferHandle deformedBuffer;
-    BufferHandle shadowBuffer; ///< read with Access::ShaderRead; invalid: there are no shadow maps
+    std::vector<BufferHandle> shading; ///< that hits are shaded by, read with Access::ShaderRead
     VkAccelerationStructureKHR tlas = VK_NULL_HANDLE; ///< custom index: row of the entity table
     VkDescriptorSet textures = VK_NULL_HANDLE;        ///< set 1 of pipelines: bindless textures
     VkDeviceAddress frameConstants = 0;               ///< shader::FrameConstants

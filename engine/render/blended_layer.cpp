@@ -179,7 +179,6 @@ BlendedPart BlendedLayerPass::declare(
     targets.color = graph.createImage("blended color", size);
     targets.opacity = graph.createImage("blended opacity", size);
     const graph::BufferHandle shapes = context.shapes.buffer;
-    const graph::BufferHandle shadows = context.shadowMaps;
     const graph::ImageHandle motionDepth = context.gbuffer.motionDepth;
     const math::uvec2 pictureSize(context.view.width, context.view.height);
     const bool isPerspective = context.frame.constants.pixelFootprint.x > 0.0f;
@@ -190,9 +189,11 @@ BlendedPart BlendedLayerPass::declare(
         "blended layer",
         graph::PassKind::Raster,
         [&](graph::PassBuilder& builder, Data&) {
-            for (const graph::BufferHandle buffer : {shapes, shadows, surfaces})
+            for (const graph::BufferHandle buffer : {shapes, surfaces})
                 if (buffer.isValid())
                     builder.read(buffer, graph::Access::ShaderRead);
+            for (const graph::BufferHandle buffer : context.shading)
+                builder.read(buffer, graph::Access::ShaderRead);
             builder.read(motionDepth, graph::Access::SampledFragment);
             const auto clear = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 1.0f);
             targets.color = builder.colorTarget(targets.color, clear);

@@ -103,10 +103,8 @@ struct ExtractContext {
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
     bool rasterHasParticles = false; ///< they are drawn into its colour
-    bool hasShadows = false;         ///< a light casts some
-    /// Changes whenever shadow maps of lights do. Shadows of movers with separate layers are not in
-    /// it: ShadowConstants::tiles bounds them.
-    uint64_t shadowRevision = 0;
+    bool hasShading = false;         ///< entities change how others are shaded (ShadingFeature)
+    uint64_t shadingRevision = 0;    ///< Shading::revision
     /// Particles to draw over the effect's picture (Needs::exposure); null: none.
     const extract::ParticleTables* particles = nullptr;
 };
@@ -134,10 +132,10 @@ struct PictureContext {
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display{};                ///< display-encoded, once an effect has made it
     Intermediates& intermediates;
-    std::span<const uint32_t> takenRows{}; ///< ExtractContext::takenRows
-    graph::BufferHandle shadowMaps{};      ///< that the raster read; invalid: there are none
-    VkDeviceAddress response = 0;          ///< shader::ResponseTable of the shutter; 0: a box
-    VkDeviceAddress frameConstants = 0;    ///< shader::FrameConstants
+    std::span<const uint32_t> takenRows{};          ///< ExtractContext::takenRows
+    std::span<const graph::BufferHandle> shading{}; ///< that the raster's shading read
+    VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
+    VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     const shader::FrameConstants* constantValues = nullptr; ///< at that address
     Explainer& explainer; ///< takes reasons of passes that an effect leaves out
     uint32_t slot = 0;    ///< of the frames in flight, below gpu::kMaxFramesInFlight

@@ -15,7 +15,7 @@ VkDeviceSize alignTable(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
 }
 
-/// A bit per row, for FrameConstants::layerRows; empty where none is taken.
+/// A bit per row, for FrameConstants::takenRows; empty where none is taken.
 std::vector<uint32_t> listBits(std::span<const uint32_t> taken, uint32_t rowCount) {
     std::vector<uint32_t> bits;
     if (taken.empty())
@@ -62,13 +62,12 @@ FrameTables::Addresses FrameTables::upload(
     constants.geometries = gpu::splitAddress(
         deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt
     );
-    constants.layerRows = gpu::splitAddress(layer.empty() ? 0 : mBuffer.address() + layerAt);
+    constants.takenRows = gpu::splitAddress(layer.empty() ? 0 : mBuffer.address() + layerAt);
     constants.materials = gpu::splitAddress(scene.materialTable());
     if ((constants.flags & shader::kFrameEnvironment) != 0)
         constants.environment = gpu::splitAddress(scene.environment());
-    constants.shadows = gpu::splitAddress(others.shadows);
-    if (others.shadows != 0)
-        constants.flags |= shader::kFrameShadows;
+    for (size_t slot = 0; slot < others.slots.size(); ++slot)
+        constants.slots[slot] = gpu::splitAddress(others.slots[slot]);
     constants.movingTlas = gpu::splitAddress(others.movingTlas);
     mBuffer.writeBytes(&constants, sizeof(constants), 0);
     mBuffer.write(std::span<const shader::LightRow>(frame.lights), lightsAt);

@@ -8,6 +8,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu_scene/entity_table.h"
 #include "engine/gpu_scene/gpu_scene.h"
+#include "engine/render/shading_feature.h"
 
 #include <span>
 
@@ -27,10 +28,10 @@ class FrameTables {
 
     /// What others made for the frame.
     struct Others {
-        std::span<const uint32_t> taken;            ///< FrameConstants::layerRows
+        std::span<const uint32_t> taken;            ///< FrameConstants::takenRows
         std::span<const shader::Geometry> deformed; ///< geometries that follow the scene's own
-        VkDeviceAddress shadows = 0;                ///< FrameConstants::shadows; 0: there are none
-        VkDeviceAddress movingTlas = 0;             ///< FrameConstants::movingTlas; likewise
+        ShadingSlots slots{};                       ///< FrameConstants::slots
+        VkDeviceAddress movingTlas = 0; ///< FrameConstants::movingTlas; 0: there is none
     };
 
     /// The rows of the frame's entities (EntityTable).

@@ -74,7 +74,7 @@ gpu::GraphicsPipelineDesc describeGeometry(
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {
-        variant == Variant::Masked, blendConstantOf(variant), moves, targets.mayHaveShadows};
+        variant == Variant::Masked, blendConstantOf(variant), moves, targets.slots};
     if (targets.samples > 1)
         desc.colorFormats = {kColorFormat, kSampleSurfaceFormat};
     else
@@ -209,13 +209,10 @@ GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : mDevice(device), mScene(scene), mSplit(device), mMaySample(maySample(device)) {}
 
 const GBufferPass::Drawers& GBufferPass::findDrawers(const Targets& targets) {
-    auto& found = mDrawers.at(
-        (targets.mayHaveShadows ? 1 : 0) + (targets.samples > 1 ? 2 : 0) +
-        (targets.writesNormals ? 4 : 0)
-    );
-    if (found)
-        return *found;
-    Drawers& drawers = found.emplace();
+    const auto [found, isNew] = mDrawers.try_emplace(targets);
+    Drawers& drawers = found->second;
+    if (!isNew)
+        return drawers;
     drawers.sky = gpu::Pipeline(mDevice, describeSky(mScene, targets));
     for (const extract::SceneLayout::GeometryInfo& info : mScene.layout().geometries) {
         const Variant variant = variantOf(info);
@@ -230,7 +227,7 @@ GBuffer GBufferPass::declare(graph::Graph& graph, const std::string& name, const
     const gpu_scene::GpuScene& scene = source.scene;
     const bool isSampled = source.samplesEdges && mMaySample;
     const uint32_t samples = isSampled ? shader::kSampleCount : 1;
-    const Drawers& drawers = findDrawers({source.hasShadows, samples, source.writesNormals});
+    const Drawers& drawers = findDrawers({source.slots, samples, source.writesNormals});
     const auto create = [&](const char* label, VkFormat format) {
         return graph.createImage(
             label,

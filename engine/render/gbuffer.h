@@ -8,7 +8,9 @@
 #include "engine/render/sample_split.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,9 +24,11 @@ class GBufferPass {
 
     /// Specialisation of the pipelines.
     struct Targets {
-        bool mayHaveShadows = false; ///< false: for frames in which no light casts any
-        uint32_t samples = 1;        ///< per pixel, 1 or shader::kSampleCount
+        uint32_t slots = 0;   ///< that shading reads (listSlots())
+        uint32_t samples = 1; ///< per pixel, 1 or shader::kSampleCount
         bool writesNormals = false;
+
+        auto operator<=>(const Targets&) const = default;
     };
 
     /// The pipelines of one variant.
@@ -52,16 +56,15 @@ class GBufferPass {
         std::span<const uint32_t> taken; ///< rows whose blended surfaces are left out, rising
         std::span<const graph::BufferHandle> reads; ///< by addresses; invalid ones are passed over
         VkDeviceAddress frameConstants = 0;
-        bool hasShadows = false;    ///< a light casts some
+        uint32_t slots = 0;         ///< that the frame has (listSlots())
         bool samplesEdges = false;  ///< ViewRequest::samplesEdges
         bool keepsEdges = false;    ///< GBuffer::edgeSurface is read
         bool writesNormals = false; ///< GBuffer::normal is read
         math::vec2 confusion{0.0f}; ///< InstantMotions::confusion; 0: a pinhole
     };
 
-    /// Declares the pass; the first frame with shadows, and the first without, makes pipelines, and
-    /// so does the first with several samples or with normals. What `source` refers to must live
-    /// until it has been recorded.
+    /// Declares the pass; the first frame of each Targets makes pipelines. What `source` refers to
+    /// must live until it has been recorded.
     /// \param name of the pass
     [[nodiscard]] GBuffer
     declare(graph::Graph& graph, const std::string& name, const Source& source);
@@ -77,8 +80,7 @@ class GBufferPass {
 
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    /// By whether lights may cast shadows, 2 more with several samples, and 4 more with normals.
-    std::array<std::optional<Drawers>, 8> mDrawers;
+    std::map<Targets, Drawers> mDrawers;
     SampleSplit mSplit;
     bool mMaySample; ///< the device can draw several samples per pixel
 };

@@ -69,13 +69,12 @@ Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view
     FrameRequest request;
     request.view = view;
     request.view.instant.reset();
-    request.view.shadows.mode = extract::ShadowMode::None; // only motion counts
     request.measuresMotion = true;
     request.wantColor = false;
     if (!mLongestMotion)
         mLongestMotion.emplace(mDevice);
     Effect* const effect = &*mLongestMotion;
-    if (const auto seen = renderFrame(world, request, std::span(&effect, 1)); !seen)
+    if (const auto seen = renderFrame(world, request, {.effects = std::span(&effect, 1)}); !seen)
         return seen.error();
     return mLongestMotion->take();
 }
@@ -90,7 +89,7 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
         return frame.error();
     const extract::MotionParts parts =
         extract::planMotionParts(world, mScene.layout(), frame.value(), view);
-    path.px = parts.casterPx;
+    path.px = parts.unseenPx;
     path.movesLight = parts.movesLight;
     for (uint32_t i = 0; i < parts.count; ++i) {
         extract::ViewRequest part = view;

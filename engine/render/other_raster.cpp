@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/other_raster.h"
 
-#include "engine/render/shadow_maps.h"
-
 #include <algorithm>
-#include <array>
+#include <utility>
 
 namespace shutter::render {
 
@@ -14,30 +12,32 @@ extract::ViewRequest makeViewOfOtherEnd(const extract::ViewRequest& view) {
     return other;
 }
 
-OtherRaster::OtherRaster(gpu::Device& device)
-    : mTables(device), mDeformation(device), mShadows(std::make_unique<ShadowMaps>(device)) {}
-
-OtherRaster::~OtherRaster() = default;
-
 core::Status OtherRaster::extract(
     const scene::World& world,
     const extract::SceneLayout& layout,
     const extract::ViewRequest& view,
-    std::span<const ecs::Entity> layer
+    const Shared& shared
 ) {
     auto extracted = mExtractor.update(world, layout, view);
     if (!extracted)
         return extracted.error();
     mFrame = extracted.value();
     mTaken.clear();
-    if (!layer.empty())
+    const std::span<const ecs::Entity> taken = shared.taken;
+    if (!taken.empty())
         for (uint32_t row = 0; row < mFrame->entityHandles.size(); ++row)
-            if (std::find(layer.begin(), layer.end(), mFrame->entityHandles[row]) != layer.end())
+            if (std::find(taken.begin(), taken.end(), mFrame->entityHandles[row]) != taken.end())
                 mTaken.push_back(row);
     mView = view;
-    return mShadows->prepare(extract::planShadows(
-        world, layout, view, mExtractor.view(), *mFrame, /*keepsExposure=*/true
-    ));
+    mKind = shared.kind;
+    mSlot = shared.slot;
+    auto shading = extractShading(
+        shared.shading, {world, layout, view, mExtractor.view(), *mFrame, shared.kind, shared.slot}
+    );
+    if (!shading)
+        return shading.error();
+    mShading = std::move(shading).value();
+    return {};
 }
 
 OtherRasterView OtherRaster::declare(
@@ -45,23 +45,19 @@ OtherRasterView OtherRaster::declare(
     const char* name,
     const gpu_scene::GpuScene& scene,
     GBufferPass& pass,
-    const ShadowPipelines* shadows,
     bool keepsEdges,
     const math::vec2& confusion
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);
     mTables.entities().update(*mFrame);
     const FrameTables::Addresses tables = mTables.upload(
-        *mFrame,
-        mView,
-        scene,
-        {.taken = mTaken, .deformed = shapes.rows, .shadows = mShadows->constants()}
+        *mFrame, mView, scene, {.taken = mTaken, .deformed = shapes.rows, .slots = mShading.slots}
     );
-    graph::BufferHandle shadowMaps;
-    if (shadows != nullptr)
-        shadowMaps =
-            mShadows->declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
-    const std::array reads{shapes.buffer, shadowMaps};
+    std::vector<graph::BufferHandle> reads{shapes.buffer};
+    for (const RasterShading::Running& one : mShading.running)
+        reads.push_back(
+            one.feature->declare({graph, *mFrame, shapes.buffer, tables.constants, mKind, mSlot})
+        );
     const GBuffer gbuffer = pass.declare(
         graph,
         name,
@@ -70,7 +66,7 @@ OtherRasterView OtherRaster::declare(
          mTaken,
          reads,
          tables.constants,
-         mShadows->constants() != 0,
+         listSlots(mShading.slots),
          mView.samplesEdges,
          keepsEdges,
          /*writesNormals=*/false,

@@ -10,16 +10,13 @@
 #include "engine/render/contexts.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
+#include "engine/render/shading_feature.h"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 namespace shutter::render {
-
-class ShadowMaps;
-struct ShadowPipelines;
 
 /// The view of the end of the exposure that is farther from the raster instant.
 [[nodiscard]] extract::ViewRequest makeViewOfOtherEnd(const extract::ViewRequest& view);
@@ -28,18 +25,23 @@ struct ShadowPipelines;
 /// for.
 class OtherRaster {
   public:
-    explicit OtherRaster(gpu::Device& device);
-    ~OtherRaster();
+    explicit OtherRaster(gpu::Device& device) : mTables(device), mDeformation(device) {}
 
-    /// \param view at the raster's time. Even with an instant, movers cast the shadow of the whole
-    /// exposure, as in the frame's own raster
-    /// \param layer entities whose blended surfaces are left out, as in the frame's own raster
-    /// Error: as FrameExtractor::update.
+    /// What the frame's own raster has too.
+    struct Shared {
+        std::span<ShadingFeature* const> shading;
+        std::span<const ecs::Entity> taken; ///< whose blended surfaces are left out
+        RasterKind kind = RasterKind::Second;
+        uint32_t slot = 0;
+    };
+
+    /// \param view at the raster's time
+    /// Error: as FrameExtractor::update and ShadingFeature::extract.
     [[nodiscard]] core::Status extract(
         const scene::World& world,
         const extract::SceneLayout& layout,
         const extract::ViewRequest& view,
-        std::span<const ecs::Entity> layer
+        const Shared& shared
     );
 
     /// Returns the extracted raster.
@@ -47,7 +49,6 @@ class OtherRaster {
 
     /// Declares the passes of the extracted raster, which must live until they have been recorded.
     /// \param name of the pass that draws it
-    /// \param shadows null: lights cast none
     /// \param keepsEdges GBuffer::edgeSurface is read
     /// \param confusion GBufferPass::Source::confusion
     [[nodiscard]] OtherRasterView declare(
@@ -55,7 +56,6 @@ class OtherRaster {
         const char* name,
         const gpu_scene::GpuScene& scene,
         GBufferPass& pass,
-        const ShadowPipelines* shadows,
         bool keepsEdges,
         const math::vec2& confusion
     );
@@ -64,7 +64,9 @@ class OtherRaster {
     extract::FrameExtractor mExtractor;
     FrameTables mTables;
     gpu_scene::DeformationPass mDeformation;
-    std::unique_ptr<ShadowMaps> mShadows;
+    RasterShading mShading;
+    RasterKind mKind = RasterKind::Second;
+    uint32_t mSlot = 0;
     extract::ViewRequest mView;
     const extract::ExtractedFrame* mFrame = nullptr;
     std::vector<uint32_t> mTaken; ///< rows of mFrame

@@ -11,7 +11,6 @@
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/math/lens_tables.h"
-#include "engine/render/shadow_maps.h"
 
 #include <array>
 #include <chrono>
@@ -105,8 +104,7 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t fr
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene),
       mParticlePass(device, mScene), mPool(device), mDeformation(device, framesInFlight),
       mFrameTlas(device, framesInFlight), mTimedScene(device, framesInFlight),
-      mSecondRaster(device, framesInFlight), mLastRaster(device, framesInFlight),
-      mShadows(device, framesInFlight) {
+      mSecondRaster(device, framesInFlight), mLastRaster(device, framesInFlight) {
     SHUTTER_CHECK(
         framesInFlight >= 1 && framesInFlight <= gpu::kMaxFramesInFlight,
         "{} frames in flight",
@@ -196,10 +194,10 @@ void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediat
 }
 
 core::Result<FrameResult> Renderer::renderFrame(
-    const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
+    const scene::World& world, const FrameRequest& request, const FeatureSet& features
 ) {
     SHUTTER_CHECK(mPending.empty(), "{} frames are unfinished", mPending.size());
-    SHUTTER_TRY(submitFrame(world, request, effects));
+    SHUTTER_TRY(submitFrame(world, request, features));
     return finishFrame();
 }
 
@@ -230,8 +228,9 @@ Renderer::extractOwn(const scene::World& world, const extract::ViewRequest& view
 }
 
 core::Status Renderer::submitFrame(
-    const scene::World& world, const FrameRequest& asked, std::span<Effect* const> effects
+    const scene::World& world, const FrameRequest& asked, const FeatureSet& features
 ) {
+    const std::span<Effect* const> effects = features.effects;
     SHUTTER_CHECK(mPending.size() < mSlots.size(), "{} frames are unfinished", mPending.size());
     PendingFrame pending;
     pending.slot = mNextSlot;
@@ -287,28 +286,27 @@ core::Status Renderer::submitFrame(
         moving->jitterPx = math::vec2(context.colorJitterPx);
     }
 
-    extract::ShadowPlan shadows = extract::planShadows(
-        world, mScene.layout(), request.view, mExtractor.view(), frame, /*keepsExposure=*/false
+    const auto shading = extractShading(
+        features.shading,
+        {world, mScene.layout(), request.view, mExtractor.view(), frame, RasterKind::Own, mNextSlot}
     );
-    context.hasShadows = shadows.shadows.run;
-    if (context.hasShadows)
-        context.shadowRevision = shadows.casterRevision;
+    if (!shading)
+        return shading.error();
+    context.hasShading = !shading.value().running.empty();
+    context.shadingRevision = shading.value().revision;
     const auto particles = extractParticles(context, request, running);
     if (!particles)
         return particles.error();
     if (request.wantReasons) {
         explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
-        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
-        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
+        for (const Explanation& one : shading.value().explanations)
+            explainer.decide(one.kind, one.subject, one.decision);
         explainer.decide(
             ExplainedKind::Work, "particles", decideParticles(particles.value(), request.view)
         );
     }
-    ShadowMaps* const maps = shadows.shadows.run ? &mShadows.use(pending.slot) : nullptr;
-    if (maps != nullptr)
-        SHUTTER_TRY(maps->prepare(std::move(shadows)));
     context.rasterHasParticles = !running.particles.run && !particles.value().empty();
-    SHUTTER_TRY(extractForEffects(context, particles.value(), running));
+    SHUTTER_TRY(extractForEffects(context, particles.value(), running, features.shading));
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -318,7 +316,7 @@ core::Status Renderer::submitFrame(
          request,
          facts,
          frame,
-         maps,
+         shading.value(),
          moving ? &*moving : nullptr,
          particles.value(),
          context.colorJitterPx,
@@ -354,8 +352,11 @@ core::Status Renderer::submitFrame(
     pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
-    if (!effects.empty() && !request.measuresMotion)
+    if (!effects.empty() && !request.measuresMotion) {
         releaseIdle(running);
+        for (ShadingFeature* feature : features.shading)
+            feature->endFrame();
+    }
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();
     return {};
@@ -434,14 +435,13 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     mWritten =
         parts.slot.tables.entities().update(frame, running.rays.run ? &masks : nullptr, extra);
     mTableMilliseconds = nowMilliseconds() - start;
-    const VkDeviceAddress shadows = parts.shadows != nullptr ? parts.shadows->constants() : 0;
     scene.tables = parts.slot.tables.upload(
         frame,
         request.view,
         mScene,
         {.taken = running.takenRows,
          .deformed = deformed,
-         .shadows = shadows,
+         .slots = parts.shading.slots,
          .movingTlas = movingTlas}
     );
     graph::RayScene& rays = scene.rays;
@@ -461,20 +461,14 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
         });
         scene.timedRays.deformedBuffer = scene.shapes.buffer;
     }
-    if (parts.shadows != nullptr)
-        rays.shadowBuffer =
-            declareOwned(PassOwner::Scene, "what shadow maps show has changed", [&] {
-                return parts.shadows->declare(
-                    graph,
-                    *mShadowPipelines,
-                    frame,
-                    mScene,
-                    scene.shapes.buffer,
-                    rays.frameConstants
-                );
-            });
-    scene.shadowMaps = rays.shadowBuffer;
-    const std::array reads{scene.shapes.buffer, rays.shadowBuffer};
+    for (const RasterShading::Running& one : parts.shading.running)
+        rays.shading.push_back(declareOwned(PassOwner::Scene, one.passReason, [&] {
+            return one.feature->declare(
+                {graph, frame, scene.shapes.buffer, rays.frameConstants, RasterKind::Own, mNextSlot}
+            );
+        }));
+    std::vector<graph::BufferHandle> reads = rays.shading;
+    reads.push_back(scene.shapes.buffer);
     const bool readsNormals = running.readsNormals || request.intermediates.contains(kNormals) ||
                               request.shownIntermediates.contains(kNormals);
     declareOwned(PassOwner::Scene, "the picture is drawn", [&] {
@@ -486,7 +480,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
              running.takenRows,
              reads,
              rays.frameConstants,
-             parts.shadows != nullptr,
+             listSlots(parts.shading.slots),
              running.samplesEdges,
              running.readsEdges,
              readsNormals,
@@ -511,15 +505,7 @@ void Renderer::declareEffects(
                                   const core::Decision& decision) {
         return parts.explainer.declareOwned(graph, reader.owner(), decision.reason, [&] {
             return rasters.use(context.slot)
-                .declare(
-                    graph,
-                    name,
-                    mScene,
-                    mGBufferPass,
-                    mShadowPipelines.get(),
-                    running.readsEdges,
-                    running.confusion
-                );
+                .declare(graph, name, mScene, mGBufferPass, running.readsEdges, running.confusion);
         });
     };
     std::optional<OtherRasterView> second;
@@ -559,8 +545,6 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
     const FrameRequest& request = parts.request;
     const extract::ExtractedFrame& frame = parts.frame;
     RunningEffects& running = parts.running;
-    if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
-        mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
     const DeclaredScene scene = declareScene(parts);
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
@@ -579,7 +563,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .color = scene.gbuffer.color,
         .intermediates = intermediates,
         .takenRows = running.takenRows,
-        .shadowMaps = scene.shadowMaps,
+        .shading = scene.rays.shading,
         .response = scene.tables.response,
         .frameConstants = scene.tables.constants,
         .constantValues = &scene.tables.constantValues,

@@ -21,6 +21,7 @@
 #include "engine/render/pass_trace.h"
 #include "engine/render/per_slot.h"
 #include "engine/render/readback.h"
+#include "engine/render/shading_feature.h"
 
 #include <cstdint>
 #include <deque>
@@ -33,9 +34,6 @@
 #include <vector>
 
 namespace shutter::render {
-
-class ShadowMaps;
-struct ShadowPipelines;
 
 struct FrameRequest {
     extract::ViewRequest view;
@@ -65,6 +63,12 @@ struct FrameRequest {
     bool wantReasons = false;
 };
 
+/// What a frame is drawn with, in order.
+struct FeatureSet {
+    std::span<ShadingFeature* const> shading{};
+    std::span<Effect* const> effects{};
+};
+
 struct FrameResult {
     image::Image color;   ///< linear, RGBA; empty unless wanted
     image::Image display; ///< [0, 1], RGBA; empty unless wanted
@@ -83,7 +87,7 @@ struct LongestPath {
     bool hasFleeting = false; ///< particles come, go or change their colour
 };
 
-/// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished
+/// Draws frames of one world's assets; features are the caller's. Frames are submitted and finished
 /// in order: sequentially with one frame in flight, with more the CPU runs ahead of the GPU.
 class Renderer {
   public:
@@ -94,11 +98,10 @@ class Renderer {
     ~Renderer();
 
     /// Records and submits a frame. As many as are in flight may be unfinished (CHECKed).
-    [[nodiscard]] core::Status submitFrame(
-        const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
-    );
+    [[nodiscard]] core::Status
+    submitFrame(const scene::World& world, const FrameRequest& request, const FeatureSet& features);
 
-    /// Waits for the oldest frame that is unfinished (CHECKed: there is one), whose effects must
+    /// Waits for the oldest frame that is unfinished (CHECKed: there is one), whose features must
     /// still be there.
     [[nodiscard]] FrameResult finishFrame();
 
@@ -107,9 +110,8 @@ class Renderer {
     [[nodiscard]] uint32_t framesInFlight() const { return static_cast<uint32_t>(mSlots.size()); }
 
     /// Submits and finishes a frame; none may be unfinished (CHECKed).
-    [[nodiscard]] core::Result<FrameResult> renderFrame(
-        const scene::World& world, const FrameRequest& request, std::span<Effect* const> effects
-    );
+    [[nodiscard]] core::Result<FrameResult>
+    renderFrame(const scene::World& world, const FrameRequest& request, const FeatureSet& features);
 
     /// Measures the shares of motion that remain under the view's cap
     /// (CameraShutter::maxBlurPercent): pass them to ExposureInterval::cap of everything drawn of
@@ -186,7 +188,7 @@ class Renderer {
         const FrameRequest& request;
         const ViewFacts& facts;
         const extract::ExtractedFrame& frame;
-        ShadowMaps* shadows;                ///< null: no light casts any
+        const RasterShading& shading;       ///< of the own raster
         const extract::TimedTables* moving; ///< null: no time-sampled rays
         const extract::ParticleTables& particles;
         math::dvec2 particleJitterPx; ///< of the colour that they are drawn on after effects
@@ -200,7 +202,6 @@ class Renderer {
         graph::RayScene rays;       ///< filled where an effect traces at the raster instant
         graph::TimedRays timedRays; ///< likewise at any time
         FrameTables::Addresses tables;
-        graph::BufferHandle shadowMaps; ///< invalid: there are none
         GBuffer gbuffer;
     };
 
@@ -238,7 +239,8 @@ class Renderer {
     [[nodiscard]] core::Status extractForEffects(
         ExtractContext& context,
         const extract::ParticleTables& particles,
-        const RunningEffects& running
+        const RunningEffects& running,
+        std::span<ShadingFeature* const> shading
     );
     /// Extracts the particles that the frame draws.
     [[nodiscard]] core::Result<extract::ParticleTables> extractParticles(
@@ -290,10 +292,8 @@ class Renderer {
     PerSlot<rays::TimedScene> mTimedScene;
     PerSlot<OtherRaster> mSecondRaster;
     PerSlot<OtherRaster> mLastRaster;
-    PerSlot<ShadowMaps> mShadows;
-    std::deque<PendingFrame> mPending;                 ///< oldest first
-    std::optional<LongestMotion> mLongestMotion;       ///< made by the first cap
-    std::unique_ptr<ShadowPipelines> mShadowPipelines; ///< made on the first request for shadows
+    std::deque<PendingFrame> mPending;           ///< oldest first
+    std::optional<LongestMotion> mLongestMotion; ///< made by the first cap
     // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;

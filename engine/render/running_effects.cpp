@@ -5,7 +5,6 @@
 #include "engine/extract/blended_layer.h"
 #include "engine/extract/raster_record.h"
 #include "engine/render/renderer.h"
-#include "engine/render/shadow_maps.h"
 
 namespace shutter::render {
 
@@ -80,7 +79,10 @@ Renderer::RunningEffects Renderer::joinNeeds(
 }
 
 core::Status Renderer::extractForEffects(
-    ExtractContext& context, const extract::ParticleTables& particles, const RunningEffects& running
+    ExtractContext& context,
+    const extract::ParticleTables& particles,
+    const RunningEffects& running,
+    std::span<ShadingFeature* const> shading
 ) {
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.takenRows);
@@ -89,11 +91,22 @@ core::Status Renderer::extractForEffects(
     view.samplesEdges = running.samplesEdges; // as this frame is drawn
     if (running.secondRaster.run)
         SHUTTER_TRY(mSecondRaster.use(context.slot)
-                        .extract(context.world, layout, makeViewOfOtherEnd(view), hidden));
+                        .extract(
+                            context.world,
+                            layout,
+                            makeViewOfOtherEnd(view),
+                            {shading, hidden, RasterKind::Second, context.slot}
+                        ));
     if (running.lastRaster.run) {
         const auto before = extract::makeViewBefore(context.world, view, context.motion);
         SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
-        SHUTTER_TRY(mLastRaster.use(context.slot).extract(context.world, layout, *before, hidden));
+        SHUTTER_TRY(mLastRaster.use(context.slot)
+                        .extract(
+                            context.world,
+                            layout,
+                            *before,
+                            {shading, hidden, RasterKind::Last, context.slot}
+                        ));
     }
     for (size_t i = 0; i < running.effects.size(); ++i) {
         const RunningEffect& one = running.effects[i];
@@ -135,7 +148,6 @@ void Renderer::releaseIdle(const RunningEffects& running) {
     mTimedScene.endFrame();
     mSecondRaster.endFrame();
     mLastRaster.endFrame();
-    mShadows.endFrame();
     // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
     mScene.releaseIdleBlas(running.mayTrace || running.timedRays.run);
 }

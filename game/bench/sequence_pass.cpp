@@ -93,6 +93,7 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wa
     picture.frame.view.usesLens = drawer.options.method->hasLens &&
                                   scene::hasLens(mSource.world(), picture.frame.view.camera);
     picture.method = drawer.options;
+    picture.features = shown.picture.features;
     picture.pixel = shown.pixel;
     picture.seed = shown.seed;
     picture.antiAliasing = shown.picture.antiAliasing;

@@ -345,7 +345,7 @@ ShotArguments applyPreset(const RenderArguments& arguments) {
     if (!shot.typed.contains("--aa"))
         shot.picture.antiAliasing = effects->antiAliasing;
     if (!shot.typed.contains("--shadows"))
-        shot.picture.shadows.mode = effects->shadows;
+        shot.picture.features.shadows.mode = effects->shadows;
     if (!shot.typed.contains("--bloom"))
         shot.picture.bloom.share = effects->bloomShare;
     return shot;

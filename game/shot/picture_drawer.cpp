@@ -65,6 +65,7 @@ PictureRequest makePicture(
     picture.filtersLens = seesLens && method.method->lensFilter != nullptr;
     picture.frame.view.usesLens = seesLens && !picture.filtersLens;
     picture.method = method;
+    picture.features = options.picture.features;
     picture.pixel = options.pixel;
     picture.seed = options.seed;
     picture.antiAliasing = options.picture.antiAliasing;
@@ -72,7 +73,7 @@ PictureRequest makePicture(
 }
 
 PictureDrawer::PictureDrawer(gpu::Device& device, render::Renderer& renderer)
-    : mDevice(device), mRenderer(renderer) {}
+    : mDevice(device), mRenderer(renderer), mFeatures(device, renderer.scene()) {}
 
 PictureDrawer::~PictureDrawer() {
     try {

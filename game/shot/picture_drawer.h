@@ -7,6 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/extract/exposure_parts.h"
 #include "engine/render/renderer.h"
+#include "game/shot/picture_features.h"
 #include "game/shot/shot.h"
 #include "game/shot/shot_options.h"
 #include "modules/accumulate/accumulate.h"
@@ -53,6 +54,7 @@ struct PictureRequest {
     bool filtersLens = false; ///< MethodInfo::lensFilter runs
     /// With MethodOptions::maxStepPx; nothing: the drawer measures the motion.
     std::optional<InstantChoice> instants{};
+    FeatureSettings features{};
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                              ///< accumulate, truth, AntiAliasing::Box
     AntiAliasing antiAliasing = AntiAliasing::None; ///< unless isSampledAnyway()
@@ -264,6 +266,7 @@ class PictureDrawer {
 
     gpu::Device& mDevice;
     render::Renderer& mRenderer;
+    PictureFeatures mFeatures;
     std::array<Slot, kSlots> mSlots;
     std::deque<Label> mLabels; ///< of the renderer's unfinished frames
     std::deque<FinishedPicture> mFinished;

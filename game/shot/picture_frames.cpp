@@ -139,7 +139,7 @@ core::Status PictureDrawer::submitFrame(
     const Label& label
 ) {
     finishUntil(mRenderer.framesInFlight() - 1);
-    SHUTTER_TRY(mRenderer.submitFrame(world, frame, effects));
+    SHUTTER_TRY(mRenderer.submitFrame(world, frame, mFeatures.listWith(effects)));
     mLabels.push_back(label);
     return {};
 }

@@ -105,9 +105,11 @@ PictureDrawer::prepare(const scene::World& world, const PictureRequest& request)
     SHUTTER_TRY(check(mDevice, request.method, view.width, view.height));
     if (countSteps(request.method) + request.raysBefore == 0)
         return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
+    mFeatures.configure(request.features);
     PictureRequest prepared = request;
+    prepared.frame.view.unseenMatters = unseenMatters(request.features);
     if (!prepared.cap) {
-        auto cap = measureCap(world, view);
+        auto cap = measureCap(world, prepared.frame.view);
         if (!cap)
             return cap.error();
         prepared.cap = std::move(cap).value();

@@ -7,7 +7,7 @@
 namespace shutter::game {
 
 const PresetEffects* findPresetEffects(std::string_view preset) {
-    using extract::ShadowMode;
+    using shadows::ShadowMode;
     static constexpr std::array kEffects = {
         PresetEffects{"performance", AntiAliasing::None, ShadowMode::Blurred, 0.0f, false},
         PresetEffects{"balanced", AntiAliasing::Taa, ShadowMode::Blurred, 0.04f, true},
@@ -18,6 +18,18 @@ const PresetEffects* findPresetEffects(std::string_view preset) {
             return effects.preset == preset;
         });
     return found == kEffects.end() ? nullptr : &*found;
+}
+
+bool areEqual(const FeatureSettings& a, const FeatureSettings& b) {
+    bool equal = true;
+    visitFeatureRows([&](auto rows, const auto& part) {
+        equal = equal && core::areEqual(rows, part(a), part(b));
+    });
+    return equal;
+}
+
+bool unseenMatters(const FeatureSettings& settings) {
+    return settings.shadows.mode != shadows::ShadowMode::None;
 }
 
 core::SettingRows<PictureSettings> listPictureRows() {

@@ -6,8 +6,8 @@
 
 #include "engine/core/setting_row.h"
 #include "engine/extract/extracted_frame.h"
-#include "engine/extract/shadow_settings.h"
 #include "modules/bloom/bloom.h"
+#include "modules/shadows/shadow_settings.h"
 #include "modules/tonemap/tonemap.h"
 
 #include <cstdint>
@@ -23,11 +23,29 @@ enum class AntiAliasing : uint8_t {
     Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
 };
 
+/// Of features that take part in a picture besides its effects (picture_features.h).
+struct FeatureSettings {
+    shadows::ShadowSettings shadows{};
+};
+
+/// Calls `visit(rows, part)` for each group of rows; `part(settings)` is the struct that the rows
+/// describe. A feature is a member above and a line here.
+template <class Visit> void visitFeatureRows(const Visit& visit) {
+    visit(
+        shadows::listShadowRows(), [](auto& settings) -> auto& { return settings.shadows; }
+    );
+}
+
+[[nodiscard]] bool areEqual(const FeatureSettings& a, const FeatureSettings& b);
+
+/// extract::ViewRequest::unseenMatters
+[[nodiscard]] bool unseenMatters(const FeatureSettings& settings);
+
 struct PictureSettings {
     AntiAliasing antiAliasing = AntiAliasing::None;
     extract::FrameFit frameFit = extract::FrameFit::Whole;
     bool particles = true; ///< extract::ViewRequest::particles
-    extract::ShadowSettings shadows{};
+    FeatureSettings features{};
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};
 };
@@ -37,7 +55,7 @@ struct PictureSettings {
 struct PresetEffects {
     std::string_view preset;
     AntiAliasing antiAliasing;
-    extract::ShadowMode shadows;
+    shadows::ShadowMode shadows;
     float bloomShare;
     bool depthOfField; ///< false: cameras are pinholes
 };
@@ -48,8 +66,8 @@ struct PresetEffects {
 /// Rows of what belongs to no module.
 [[nodiscard]] core::SettingRows<PictureSettings> listPictureRows();
 
-/// Calls `visit(rows, part)` for each group of rows; `part(settings)` is the struct that the rows
-/// describe. An effect that a picture can have is a member above and a line here.
+/// visitFeatureRows() for all of the settings. An effect that a picture can have is a member above
+/// and a line here.
 template <class Visit> void visitPictureRows(const Visit& visit) {
     using S = PictureSettings;
     const auto partOf = [](auto member) {
@@ -60,7 +78,11 @@ template <class Visit> void visitPictureRows(const Visit& visit) {
     visit(
         listPictureRows(), [](auto& settings) -> auto& { return settings; }
     );
-    visit(extract::listShadowRows(), partOf(&S::shadows));
+    visitFeatureRows([&](auto rows, const auto& part) {
+        visit(
+            rows, [part](auto& settings) -> auto& { return part(settings.features); }
+        );
+    });
     visit(bloom::listBloomRows(), partOf(&S::bloom));
     visit(tonemap::listTonemapRows(), partOf(&S::tonemap));
 }

@@ -263,7 +263,7 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.ambient = options.ambient;
     view.unlit = options.unlit;
     view.particles = options.picture.particles;
-    view.shadows = options.picture.shadows;
+    view.unseenMatters = unseenMatters(options.picture.features);
     return view;
 }
 

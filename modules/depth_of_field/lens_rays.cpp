@@ -34,9 +34,10 @@ void readScene(graph::PassBuilder& builder, const graph::RayScene& rays) {
     for (const graph::BufferHandle level : {rays.movingTlasBuffer, rays.deformedBlasBuffer})
         if (level.isValid())
             builder.read(level, Access::AccelerationRead);
-    for (const graph::BufferHandle buffer : {rays.deformedBuffer, rays.shadowBuffer})
-        if (buffer.isValid())
-            builder.read(buffer, Access::ShaderRead);
+    if (rays.deformedBuffer.isValid())
+        builder.read(rays.deformedBuffer, Access::ShaderRead);
+    for (const graph::BufferHandle buffer : rays.shading)
+        builder.read(buffer, Access::ShaderRead);
 }
 
 } // namespace

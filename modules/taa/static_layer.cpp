@@ -40,11 +40,6 @@ bool hasPassers(const render::ExtractContext& context, const std::vector<bool>& 
            });
 }
 
-bool isSame(const extract::ShadowSettings& a, const extract::ShadowSettings& b) {
-    return a.mode == b.mode && a.mapSize == b.mapSize && a.distance == b.distance &&
-           a.instants == b.instants;
-}
-
 /// For each row of a record the index of its shape, or kNoRow.
 std::vector<uint32_t> listShapes(const extract::RasterRecord& record) {
     std::vector<uint32_t> shapes(record.entities.size(), extract::kNoRow);
@@ -68,19 +63,18 @@ StaticLayer::Record StaticLayer::makeRecord(const render::ExtractContext& contex
     record.background = frame.constants.background;
     record.ambient = frame.constants.ambient;
     record.flags = frame.constants.flags;
-    record.hasShadows = context.hasShadows;
-    record.shadows = context.view.shadows;
-    record.shadowRevision = context.shadowRevision;
-    record.mayReach = context.hasShadows || !frame.blended.still.empty();
+    record.hasShading = context.hasShading;
+    record.shadingRevision = context.shadingRevision;
+    record.mayReach = context.hasShading || !frame.blended.still.empty();
     return record;
 }
 
 void StaticLayer::compare(const Record& now, const Record& last) {
-    mFrame.mayDiffer =
-        last.hasPassers || now.background != last.background || now.ambient != last.ambient ||
-        now.flags != last.flags || now.hasShadows != last.hasShadows ||
-        now.raster.taken != last.raster.taken || !isSame(now.shadows, last.shadows) ||
-        now.shadowRevision != last.shadowRevision || !hasSameBytes(now.lights, last.lights);
+    mFrame.mayDiffer = last.hasPassers || now.background != last.background ||
+                       now.ambient != last.ambient || now.flags != last.flags ||
+                       now.hasShading != last.hasShading || now.raster.taken != last.raster.taken ||
+                       now.shadingRevision != last.shadingRevision ||
+                       !hasSameBytes(now.lights, last.lights);
     bool changes = false; // something came, went, started or stopped
     const std::vector<uint32_t> nowRows = extract::findRows(last.raster, now.raster.entities);
     const std::vector<uint32_t> nowShapes = listShapes(now.raster);

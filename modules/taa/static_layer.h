@@ -28,8 +28,8 @@ class StaticLayer {
         const Images* images = nullptr;
         bool hasLast = false; ///< `images` hold earlier frames' data
         shader::StaticRows rows{};
-        /// Static surfaces may differ from the last frame: lights, shadow casters or blended
-        /// surfaces over them may have changed.
+        /// Static surfaces may differ from the last frame: lights, what holds them back or blended
+        /// surfaces may have changed.
         bool mayDiffer = false;
     };
 
@@ -57,12 +57,11 @@ class StaticLayer {
         std::vector<shader::LightRow> lights;
         math::vec4 background{0.0f};
         math::vec4 ambient{0.0f};
-        uint32_t flags = 0;      ///< of shader::FrameConstants
-        bool hasShadows = false; ///< a light casts some
-        extract::ShadowSettings shadows;
-        uint64_t shadowRevision = 0; ///< ExtractContext's
-        bool hasPassers = false;     ///< a moving blended surface lies over static ones
-        bool mayReach = false;       ///< an entity may show in pixels that show another
+        uint32_t flags = 0;           ///< of shader::FrameConstants
+        bool hasShading = false;      ///< ExtractContext's
+        uint64_t shadingRevision = 0; ///< likewise
+        bool hasPassers = false;      ///< a moving blended surface lies over static ones
+        bool mayReach = false;        ///< an entity may show in pixels that show another
     };
 
     [[nodiscard]] static Record makeRecord(const render::ExtractContext& context);

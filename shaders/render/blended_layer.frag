@@ -52,13 +52,13 @@ void main() {
 
     vec3 viewDirection = viewDirectionTo(frame, inRelWorldPosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
-    // Tables of shadows go by the raster's picture.
+    // Tables of shading go by the raster's picture.
     vec4 clip = frame.value.clipFromRelWorld * vec4(inRelWorldPosition, 1.0f);
     vec2 inRaster = (clip.xy / max(clip.w, kMinDepth) * 0.5f + 0.5f) * frame.value.sizePx;
     inRaster = clamp(inRaster, vec2(0.0f), frame.value.sizePx - 1.0f);
     vec3 color = shadeSurface(
         frame, material, surface, inRelWorldPosition, viewDirection, lightsAtRaster(frame),
-        ShadowSource(true, 0u, draw.entity, moversOfTile(frame, inRaster))
+        lightAccessAt(frame, draw.entity, inRaster)
     );
     BlendShares shares = blendSharesOf(material.flags, surface.alpha);
     outColor = vec4(color * (shares.light * instant.weight), shares.opacity);

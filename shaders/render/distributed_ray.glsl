@@ -18,32 +18,32 @@ struct DistributedSample {
     uint rays;           // traced for it
 };
 
-/// Start of a shadow ray off its surface, metres, for the rounding of where it is.
-float shadowRayOffset(vec3 position) {
+/// Start of a ray to a light off its surface, metres, for the rounding of where it is.
+float lightRayOffset(vec3 position) {
     vec3 a = abs(position);
     return 2.0e-5f * max(max(a.x, a.y), max(a.z, 1.0e-2f));
 }
 
 /// Lights that the point does not see at the query's time, a bit each.
 /// \param query of the ray that met the point
-uint traceShadows(
+uint traceDarkness(
     accelerationStructureEXT scene, FrameRef frame, TimedRef moving, SurfacePoint point,
     vec3 direction, TimedQuery query, LightSet lights
 ) {
-    if ((frame.value.flags & kFrameShadows) == 0u) return 0u;
+    if (!hasSlot(frame, kSlotOcclusion)) return 0u;
     vec3 normal = safeNormalize(point.geometricNormal, -direction);
     query.mask = kSolidMask;
     query.tMin = 0.0f;
-    query.isShadow = true;
+    query.endsAnywhere = true;
     uint dark = 0u;
-    for (uint i = 0u; i < min(lights.count, kMaxShadowLights); ++i) {
+    for (uint i = 0u; i < min(lights.count, kMaxOccludedLights); ++i) {
         LightRow light = lightAt(lights, i);
         vec3 toLight;
         vec3 irradiance;
         evaluateLight(light, point.relWorldPosition, toLight, irradiance);
         if (irradiance == vec3(0.0f)) continue;
         vec3 side = dot(normal, toLight) < 0.0f ? -normal : normal;
-        vec3 start = point.relWorldPosition + side * shadowRayOffset(point.relWorldPosition);
+        vec3 start = point.relWorldPosition + side * lightRayOffset(point.relWorldPosition);
         query.tMax = light.kind == kLightDirectional
                          ? 1.0e30f
                          : distance(light.positionRange.xyz, point.relWorldPosition);
@@ -78,9 +78,9 @@ DistributedSample traceDistributed(
         }
         Placement placement = placeAt(moving, rayHit.id.entity, s);
         Hit hit = fetchHit(frame, placement, rayHit.id);
-        uint dark = traceShadows(scene, frame, moving, hit.point, ray.direction, query, lights);
+        uint dark = traceDarkness(scene, frame, moving, hit.point, ray.direction, query, lights);
         ShadedHit shaded = shadeHit(
-            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, dark, rayHit.id.entity, 0u)
+            frame, hit, ray.direction, ray.eye, lights, lightAccessByRays(rayHit.id.entity, dark)
         );
         // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;

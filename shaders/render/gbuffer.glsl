@@ -4,9 +4,10 @@
 #define SHUTTER_GBUFFER_GLSL
 
 #define SHUTTER_UNIFORM_MATERIAL
-// Code of shadows takes three times the registers of the rest, whether or not it runs.
-layout(constant_id = 3) const bool kMayHaveShadows = true; // false: no light of the frame casts any
-#define SHUTTER_MAY_HAVE_SHADOWS kMayHaveShadows
+// Shading slots that the frame has, a bit each: code that looks light up takes three times the
+// registers of the rest, whether or not it runs.
+layout(constant_id = 3) const uint kSlots = ~0u;
+#define SHUTTER_SHADING_SLOTS kSlots
 layout(constant_id = 2) const uint kMoves = 1u; // 0: the entity has no motion
 #define SHUTTER_LOD_BIAS(frame) (kMoves != 0u ? frame.value.lodBias : frame.value.staticLodBias)
 #include "render/lighting.glsl"
@@ -39,7 +40,7 @@ void main() {
 
     vec3 color = shadeSurface(
         frame, material, surface, point.relWorldPosition, viewDirection, lightsAtRaster(frame),
-        ShadowSource(true, 0u, draw.entity, moversOfTile(frame, gl_FragCoord.xy))
+        lightAccessAt(frame, draw.entity, gl_FragCoord.xy)
     );
     vec4 blended = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
     if (kBlend == 2u) {

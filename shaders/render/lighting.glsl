@@ -2,14 +2,15 @@
 #ifndef SHUTTER_LIGHTING_GLSL
 #define SHUTTER_LIGHTING_GLSL
 
-/// A shader without shadows defines this constant as false before including this file.
-#ifndef SHUTTER_MAY_HAVE_SHADOWS
-#define SHUTTER_MAY_HAVE_SHADOWS true
+/// Slots that a shader may read, a bit each; one that knows them defines this before including this
+/// file.
+#ifndef SHUTTER_SHADING_SLOTS
+#define SHUTTER_SHADING_SLOTS ~0u
 #endif
 
 #include "render/brdf.glsl"
 #include "render/environment.glsl"
-#include "render/shadow_lookup.glsl"
+#include "render/shading.glsl"
 #include "render/surface.glsl"
 
 /// Direction to the light (unit) and the irradiance it gives a surface facing it.
@@ -70,7 +71,7 @@ LightRow lightAt(LightSet lights, uint index) {
 /// \param viewDirection unit, from the camera to the surface
 vec3 shadeSurface(
     FrameRef frame, MaterialRow material, Surface surface, vec3 position, vec3 viewDirection,
-    LightSet lights, ShadowSource shadows
+    LightSet lights, LightAccess access
 ) {
     if ((frame.value.flags & kFrameUnlit) != 0u || (material.flags & kMaterialUnlit) != 0u)
         return storableColor(surface.baseColor);
@@ -82,15 +83,16 @@ vec3 shadeSurface(
     vec3 color =
         surface.occlusion *
         reflectEnvironment(frame, diffuse, mirrored, roughness, surface.normal, v);
-    bool castsShadows = SHUTTER_MAY_HAVE_SHADOWS && (frame.value.flags & kFrameShadows) != 0u;
+    bool mayOcclude =
+        (SHUTTER_SHADING_SLOTS >> kSlotOcclusion & 1u) != 0u && hasSlot(frame, kSlotOcclusion);
     for (uint i = 0u; i < lights.count; ++i) {
         vec3 toLight;
         vec3 irradiance;
         LightRow light = lightAt(lights, i);
         evaluateLight(light, position, toLight, irradiance);
-        if (castsShadows && dot(surface.normal, toLight) > 0.0f)
+        if (mayOcclude && dot(surface.normal, toLight) > 0.0f)
             irradiance *= lightReaching(
-                frame, shadows, i, light, position, surface.geometricNormal, toLight
+                frame, access, i, light, position, surface.geometricNormal, toLight
             );
         color += irradiance * reflectLight(
                                   surface.baseColor, surface.metallic, roughness, surface.normal, v,

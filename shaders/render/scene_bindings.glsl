@@ -38,6 +38,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ind
     uint values[];
 };
 
+bool hasSlot(FrameRef frame, uint slot) {
+    uvec2 address = frame.value.slots[slot];
+    return (address.x | address.y) != 0u;
+}
+
 layout(set = 1, binding = 0) uniform sampler2D uTextures[];
 
 // A draw has one material, rays of a group meet many: the draw's shaders define

@@ -107,7 +107,6 @@ struct LightRow {
 };
 
 SHUTTER_CONST uint kFrameUnlit = 1u;       // base colour only
-SHUTTER_CONST uint kFrameShadows = 2u;     // lights cast shadows
 SHUTTER_CONST uint kFrameEnvironment = 4u; // an environment is seen and lights the scene
 
 /// Image-based light of a scene, in addition to its lights (scene::Environment).
@@ -119,6 +118,20 @@ struct EnvironmentConstants {
     float roughestLevel;   // of `mirrored`: for a roughness of 1
     float texelsPerRadian; // of `background`, at the horizon
 };
+
+/// Tables that features add to shading: their places in FrameConstants::slots.
+/// What holds light back (shaders/shadows/shadow_shared.h: ShadowConstants).
+SHUTTER_CONST uint kSlotOcclusion = 0u;
+/// Where shading of static surfaces changes from frame to frame (changing_tiles.glsl): uint[], the
+/// number of tiles across the raster, then a word per tile, 0 where nothing changes.
+SHUTTER_CONST uint kSlotChanging = 1u;
+SHUTTER_CONST uint kShadingSlots = 2u;
+
+/// Width and height of the tiles of kSlotChanging, pixels.
+SHUTTER_CONST uint kChangingTilePx = 32u;
+
+/// Lights beyond these, in the order of the table of lights, shine through everything.
+SHUTTER_CONST uint kMaxOccludedLights = 16u;
 
 struct FrameConstants {
     mat4 clipFromRelWorld;
@@ -141,12 +154,12 @@ struct FrameConstants {
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
-    uvec2 movingTlas;  // address of a second TLAS, of movers; 0: there is none
-    uvec2 shadows;     // address of ShadowConstants; 0: there are no shadow maps
-    uvec2 environment; // address of EnvironmentConstants, where kFrameEnvironment is set
+    uvec2 movingTlas;           // address of a second TLAS, of movers; 0: there is none
+    uvec2 slots[kShadingSlots]; // addresses of kSlot...; 0: the frame has no such table
+    uvec2 environment;          // address of EnvironmentConstants, where kFrameEnvironment is set
     /// Address of uint[], a bit for each row: 1 where rays meet no blended surface of the entity,
     /// which is drawn over the picture. 0: all are met.
-    uvec2 layerRows;
+    uvec2 takenRows;
 };
 
 /// Push constants of the G-buffer's draws.
@@ -166,7 +179,7 @@ static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 412);
+static_assert(sizeof(shutter::shader::FrameConstants) == 420);
 static_assert(sizeof(shutter::shader::EnvironmentConstants) == 208);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif

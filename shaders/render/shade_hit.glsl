@@ -18,7 +18,7 @@ struct ShadedHit {
 /// \param direction unit, from the camera
 /// \param eye place of the camera, camera-relative space
 ShadedHit shadeHit(
-    FrameRef frame, Hit hit, vec3 direction, vec3 eye, LightSet lights, ShadowSource shadows
+    FrameRef frame, Hit hit, vec3 direction, vec3 eye, LightSet lights, LightAccess access
 ) {
     ShadedHit shaded;
     shaded.relWorldPosition = hit.point.relWorldPosition;
@@ -27,7 +27,7 @@ ShadedHit shadeHit(
     MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
     Surface surface = evaluateSurface(frame, material, hit.point, direction);
     shaded.color =
-        shadeSurface(frame, material, surface, shaded.relWorldPosition, direction, lights, shadows);
+        shadeSurface(frame, material, surface, shaded.relWorldPosition, direction, lights, access);
     BlendShares shares = blendSharesOf(material.flags, surface.alpha);
     shaded.alpha = shares.opacity;
     shaded.light = shares.light;
@@ -35,11 +35,11 @@ ShadedHit shadeHit(
     return shaded;
 }
 
-/// The same at the raster instant, with the shadows of the frame's maps.
+/// The same at the raster instant, by the frame's tables.
 ShadedHit shadeRasterHit(FrameRef frame, HitId id, vec3 direction) {
     Hit hit = fetchHit(frame, placeAtRaster(frame, id.entity), id);
     return shadeHit(
-        frame, hit, direction, vec3(0.0f), lightsAtRaster(frame), ShadowSource(true, 0u, id.entity, kAllMovers)
+        frame, hit, direction, vec3(0.0f), lightsAtRaster(frame), lightAccessAnywhere(id.entity)
     );
 }
 

@@ -14,11 +14,11 @@ struct TimedQuery {
     uint mask; // kSolidMask, kBlendedMask or both
     float tMin;
     float tMax;
-    bool isShadow; // whether anything solid is met is all that counts; both sides of it hold light
+    bool endsAnywhere; // only whether anything solid is met counts, on either side of it
 };
 
 uint findTimedFlags(TimedQuery query) {
-    return query.isShadow ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsCullBackFacingTrianglesEXT;
+    return query.endsAnywhere ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsCullBackFacingTrianglesEXT;
 }
 
 /// A ray in the space of one entity at the ray's own time.
@@ -86,7 +86,7 @@ void traceEntity(
         if (rayQueryGetIntersectionTypeEXT(inner, false) ==
             gl_RayQueryCandidateIntersectionTriangleEXT) {
             id.barycentrics = rayQueryGetIntersectionBarycentricsEXT(inner, false);
-            bool frontFace = query.isShadow || rayQueryGetIntersectionFrontFaceEXT(inner, false);
+            bool frontFace = query.endsAnywhere || rayQueryGetIntersectionFrontFaceEXT(inner, false);
             if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
                 rayQueryConfirmIntersectionEXT(inner);
             continue;
@@ -94,7 +94,7 @@ void traceEntity(
         TriangleHit hit = meetTriangle(frame, placement, id, ray);
         if (!hit.found || !(hit.t > query.tMin) || !(hit.t < best.t)) continue;
         id.barycentrics = hit.barycentrics;
-        bool frontFace = query.isShadow || hit.frontFace != mirrored;
+        bool frontFace = query.endsAnywhere || hit.frontFace != mirrored;
         if (!isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask)) continue;
         best.found = true;
         best.t = hit.t;
@@ -140,7 +140,7 @@ RayHit traceTimedRay(
                 uint(rayQueryGetIntersectionPrimitiveIndexEXT(outer, false)),
                 rayQueryGetIntersectionBarycentricsEXT(outer, false)
             );
-            bool frontFace = query.isShadow || rayQueryGetIntersectionFrontFaceEXT(outer, false);
+            bool frontFace = query.endsAnywhere || rayQueryGetIntersectionFrontFaceEXT(outer, false);
             Placement placement = placeAt(moving, id.entity, query.s);
             if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
                 rayQueryConfirmIntersectionEXT(outer);

@@ -24,7 +24,7 @@ struct RayHit {
 
 /// Whether the entity's blended surfaces are drawn over the picture: rays then miss them.
 bool isInLayer(FrameRef frame, uint entity) {
-    uvec2 address = frame.value.layerRows;
+    uvec2 address = frame.value.takenRows;
     if ((address.x | address.y) == 0u) return false;
     return (IndexArray(address).values[entity / 32u] >> (entity & 31u) & 1u) != 0u;
 }

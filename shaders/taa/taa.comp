@@ -8,7 +8,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
-#include "render/shadow_tiles.glsl"
+#include "render/changing_tiles.glsl"
 #include "taa/taa.glsl"
 #include "taa/taa_shared.h"
 
@@ -105,7 +105,7 @@ void main() {
     uint state = stateOf(row);
     Before before = fetchBefore(pixel);
     bool mayDiffer = params.mayDiffer != 0u ||
-                     moversOfTile(FrameRef(params.frame), vec2(pixel) + 0.5f) != 0u;
+                     changesOfTile(FrameRef(params.frame), vec2(pixel) + 0.5f) != 0u;
     bool isDoubted = mayDiffer || before.isDoubted;
     Kept kept = before.kept;
     vec3 color = current.rgb;

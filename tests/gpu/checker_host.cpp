@@ -255,7 +255,7 @@ draw(render::Renderer& renderer, const CheckedScene& scene, int number, double f
     request.intermediates = {"motion", "mesh_id"};
     RowDescriber describer;
     const std::array<render::Effect*, 1> effects{&describer};
-    const auto result = renderer.renderFrame(scene.shot.world, request, effects);
+    const auto result = renderer.renderFrame(scene.shot.world, request, {.effects = effects});
     if (!result)
         return result.error();
     CheckedDrawing drawn;

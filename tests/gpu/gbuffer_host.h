@@ -332,7 +332,7 @@ class BlurStage {
 
     StagedFrame draw() {
         const std::array<render::Effect*, 2> effects{&host, &mPlugin};
-        auto drawn = renderer.renderFrame(mScene.world, makeRequest(), effects);
+        auto drawn = renderer.renderFrame(mScene.world, makeRequest(), {.effects = effects});
         EXPECT_TRUE(drawn.ok()) << drawn.error().message;
         StagedFrame frame{std::move(drawn).value(), host.output.read(), host.inPlace.read(), {}};
         if (host.blurOfC)

@@ -188,7 +188,7 @@ TEST_F(UiOnWindow, FramesInFlightDrawFromTheirOwnData) {
                 list.AddRectFilled({left, 10}, {left + 10, 20}, IM_COL32_WHITE);
         });
         window.setTarget({.size = {kWidth, kHeight}, .overlay = &ui});
-        ASSERT_TRUE(renderer.submitFrame(scene.world, request, effects).ok());
+        ASSERT_TRUE(renderer.submitFrame(scene.world, request, {.effects = effects}).ok());
     };
     // More in each frame, so that buffers grow while another frame draws from its own.
     submit(5, 1);

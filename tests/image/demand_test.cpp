@@ -110,7 +110,7 @@ TEST_F(DemandLaw, HybridWithoutRaysIsSkippedInFrontOfTheSkyToo) {
     request.view.width = request.view.height = 64;
     request.wantReasons = true;
     render::Effect* effects[] = {&blur};
-    const auto frame = renderer.renderFrame(scene.world, request, effects);
+    const auto frame = renderer.renderFrame(scene.world, request, {.effects = effects});
     ASSERT_TRUE(frame.ok());
     EXPECT_NE(test::describeMotionBlur(frame.value()).find("needs rays"), std::string::npos);
     EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
@@ -604,7 +604,7 @@ Sequence drawSequence(gpu::Device& device, const std::string& method, uint32_t f
         // The picture changes its size on the way.
         request.view.width = i < 5 ? 96 : 80;
         request.view.height = 64;
-        EXPECT_TRUE(renderer.submitFrame(world, request, effects).ok());
+        EXPECT_TRUE(renderer.submitFrame(world, request, {.effects = effects}).ok());
     }
     while (renderer.unfinishedCount() > 0)
         finish();

@@ -19,8 +19,8 @@
 namespace shutter {
 namespace {
 
-using extract::ShadowMode;
 using math::dvec3;
+using shadows::ShadowMode;
 using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
@@ -106,12 +106,15 @@ TEST_F(LightLaw, MapsThatNoImageOfTheDeviceHoldsAreRefused) {
     request.view.width = 64;
     request.view.height = 48;
     request.view.exposure = scene::computeExposure({0.5}, 0.0);
-    request.view.shadows = {.mode = ShadowMode::Blurred, .mapSize = 4096};
-    const auto refused = renderer.renderFrame(scene.world, request, {});
+    shadows::Shadows shadows(*small.value(), renderer.scene());
+    render::ShadingFeature* const shading[] = {&shadows};
+    shadows.configure({.mode = ShadowMode::Blurred, .mapSize = 4096});
+    const auto refused = renderer.renderFrame(scene.world, request, {.shading = shading});
     ASSERT_FALSE(refused.ok()) << "one map leaves no room for the mover's layers";
     EXPECT_NE(refused.error().message.find("--shadow-map-size"), std::string::npos);
-    request.view.shadows.mapSize = 1024;
-    EXPECT_TRUE(renderer.renderFrame(scene.world, request, {}).ok()) << "the next frame is fine";
+    shadows.configure({.mode = ShadowMode::Blurred, .mapSize = 1024});
+    EXPECT_TRUE(renderer.renderFrame(scene.world, request, {.shading = shading}).ok())
+        << "the next frame is fine";
 }
 
 TEST_F(LightLaw, ALitPlaneHasNoAcneAtAnyAngle) {
@@ -319,10 +322,10 @@ TEST_F(LightLaw, EntitiesWithoutShadowsCostNothing) {
     EXPECT_EQ(count(test::renderOnce(device(), dark, makeShot(ShadowMode::Sharp))), 0u);
     SceneBuilder scene = makeFloor({.position = {0, 1, 0}});
     scene.addSun({-0.25, -1.0, -0.1}, 3.0f);
-    Stage stage(device(), scene);
-    EXPECT_EQ(count(stage.render(makeShot(ShadowMode::None))), 0u);
-    EXPECT_EQ(count(stage.render(makeShot(ShadowMode::Sharp))), 2u);
-    EXPECT_EQ(count(stage.render(makeShot(ShadowMode::Sharp))), 0u) << "nothing has changed";
+    test::Frames frames(device(), scene);
+    EXPECT_EQ(count(frames.draw(makeShot(ShadowMode::None))), 0u);
+    EXPECT_EQ(count(frames.draw(makeShot(ShadowMode::Sharp))), 2u);
+    EXPECT_EQ(count(frames.draw(makeShot(ShadowMode::Sharp))), 0u) << "nothing has changed";
 }
 
 template <class Radiance> scene::Environment makeEnvironment(const Radiance& radiance) {

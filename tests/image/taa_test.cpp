@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Temporal anti-aliasing against the mean over the pixel: it is that mean where nothing moves, and
 // no ghosts of moved, removed or changed objects remain.
-#include "engine/extract/shadow_plan.h"
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/particle_emitter.h"
 #include "engine/scene/path.h"
+#include "modules/shadows/shadow_plan.h"
 #include "tests/image/laws.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
@@ -211,7 +211,7 @@ class TaaScene {
     ecs::Entity mSun;
     test::SceneBuilder mScene;
     std::string_view mMethod = "sharp";
-    extract::ShadowSettings mShadows;
+    shadows::ShadowSettings mShadows;
     double mExposureSeconds = 1.0 / 60.0;
     std::optional<float> mRaysPerPixel; ///< of `adaptive`
     bool mHasSecondRaster = false;
@@ -441,7 +441,7 @@ TEST_F(TaaLaw, EdgesInTexturesOfColorAndEmissionAreSmooth) {
 
 TEST_F(TaaLaw, ASeamBetweenTrianglesIsShadedAsTheSurfaceIs) {
     slideCamera(1.5);
-    mShadows.mode = extract::ShadowMode::Sharp;
+    mShadows.mode = shadows::ShadowMode::Sharp;
     scene::Material floor;
     floor.metallicFactor = 0.0f;
     floor.baseColor.texture = mScene.addWaveTexture(32);
@@ -661,7 +661,7 @@ TEST_F(TaaLaw, WhatSetsOffChangesNothingThatItCannotReach) {
 TEST_F(TaaLaw, AfterADoubtAPictureSettlesToWhatItIsWithoutOne) {
     addLitFloor();
     addTiles(4.5);
-    mShadows.mode = extract::ShadowMode::Sharp;
+    mShadows.mode = shadows::ShadowMode::Sharp;
     const auto square =
         test::addCard(mScene, {2.0, 2.0}, math::vec3(0.45f), {.position = {0, 0, -4}});
     scene::hide(mScene.world, square, kSeconds - 18.5 / 24.0);
@@ -704,12 +704,12 @@ TEST_F(TaaLaw, AMovingShadowLeavesNothing) {
         test::makeBox({0.8, 0.8, 0.1}, gray),
         {.position = {-speed * kSeconds, 0.0, -4.2}, .velocity = {speed, 0, 0}}
     );
-    mShadows.mode = extract::ShadowMode::Blurred;
+    mShadows.mode = shadows::ShadowMode::Blurred;
     // Where it was, left of where it is and below the middle, where tiles of the picture meet.
     const Region isBehind = [](uint32_t x, uint32_t y) { return x < 30 && y > 32 && y < 42; };
     EXPECT_LT(measureError(isBehind), 0.01);
     // Larger, in the upper half: the box no longer has a separate layer.
-    for (uint32_t i = 0; i < extract::kMaxShadowMovers; ++i)
+    for (uint32_t i = 0; i < shadows::kMaxShadowMovers; ++i)
         mScene.add(
             test::makeBox({1.5, 1.5, 0.1}, gray),
             {.position = {0.05 * i, 2.4, -4.5}, .velocity = {0.1, 0, 0}}

@@ -155,21 +155,27 @@ def cpp_may_see_shaders(part, to, path):
     return may_see_engine(part, to.name)
 
 
-def shaders_may_see(part, to):
+# Composes what features add to shading, since GLSL has no late binding.
+SHADING_ROOT, SHADING_FEATURES = "shaders/render/shading.glsl", {"shadows"}
+
+
+def shaders_may_see(part, to, file):
     """common, then render, then the modules' own."""
     if to.kind != "shaders":
         return False
+    if file == SHADING_ROOT and to.name in SHADING_FEATURES:
+        return True
     return part.name == to.name or (
         part.name != "common" and (to.name == "common" or (to.name == "render" != part.name)))
 
 
-def may_see(part, to, path):
+def may_see(part, to, path, file):
     if part == to:
         return True
     if to is None:
         return False
     if part.kind == "shaders":
-        return shaders_may_see(part, to)
+        return shaders_may_see(part, to, file)
     if to.kind == "engine":
         return may_see_engine(part, to.name)
     if to.kind in ("effect", "modules"):
@@ -227,7 +233,7 @@ def find_reason(include, is_file):
     if to != part and to and to.kind == "engine" and to.name in PUBLIC_HEADERS:
         if posixpath.basename(path) not in PUBLIC_HEADERS[to.name]:
             return f"the header is private to {to}"
-    if may_see(part, to, path):
+    if may_see(part, to, path, include.file):
         return None
     return f"{part} may not see {to or 'a folder without a row in the layer table'}"
 

@@ -109,7 +109,7 @@ TEST_F(Demand, TwoHundredBodiesThatWalkCrowdNoTile) {
 /// A picture with options that the scene has no use for against one without them.
 struct Useless {
     const char* name; ///< the options, and why they make no work
-    extract::ShadowMode shadows = extract::ShadowMode::None;
+    shadows::ShadowMode shadows = shadows::ShadowMode::None;
     bool isUnlit = false; ///< and so is the picture without the options
     bool hasSun = true;
     bool hasSolid = true; ///< floor and ball hold light back; else they are blended
@@ -121,8 +121,8 @@ struct Useless {
     bloom::BloomSettings bloom{};
 };
 
-constexpr auto kSharp = extract::ShadowMode::Sharp;
-constexpr auto kBlurred = extract::ShadowMode::Blurred;
+constexpr auto kSharp = shadows::ShadowMode::Sharp;
+constexpr auto kBlurred = shadows::ShadowMode::Blurred;
 
 const Useless kUseless[] = {
     {.name = "shadows without a light", .shadows = kBlurred, .hasSun = false},

@@ -145,7 +145,7 @@ TEST_F(SelfIntersection, AtMostOneOfAHundredThousandRaysHitsItsSurfaceAgainOrMis
         request.view.width = request.view.height = kSizePx;
         request.intermediates = {"mesh_id", "reveal_id"};
         const std::array<render::Effect*, 1> effects{&reveal};
-        const auto frame = need(renderer.renderFrame(scene.world, request, effects));
+        const auto frame = need(renderer.renderFrame(scene.world, request, {.effects = effects}));
         uint64_t rays = 0;
         uint64_t again = 0;
         uint64_t through = 0;

@@ -26,7 +26,6 @@ render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     request.view.height = shot.height;
     request.view.background = shot.background;
     request.view.ambient = shot.ambient;
-    request.view.shadows = shot.shadows;
     request.intermediates = shot.aovs;
     request.wantDisplay = shot.wantDisplay;
     return request;
@@ -50,6 +49,7 @@ core::Result<game::PictureRequest> makePicture(const SceneBuilder& scene, const 
         picture.method.motionBlur.method = method.value()->blur;
     if (core::Status valid = motion_blur::validate(picture.method.motionBlur); !valid)
         return valid.error();
+    picture.features.shadows = shot.shadows;
     picture.pixel = shot.pixel;
     picture.seed = family == game::MethodFamily::Truth ? shot.seed : 0;
     picture.raysPerFrame = shot.batch > 0 ? shot.batch : shot.instants;

@@ -40,7 +40,7 @@ struct Shot {
     std::optional<double> instant{}; ///< sharp: shutter time; none: the raster instant
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
-    extract::ShadowSettings shadows{};
+    shadows::ShadowSettings shadows{};
     uint32_t instants = 16;            ///< accumulate: instants; truth: rays per pixel
     std::optional<double> maxStepPx{}; ///< accumulate: so many instants that none is farther apart
     uint32_t seed = 0;                 ///< truth only

@@ -75,7 +75,7 @@ class DemoSource : public SequenceSource {
         view.ambient = appearance.ambient;
         view.unlit = mOptions.unlit;
         view.particles = mOptions.picture.particles;
-        view.shadows = mOptions.picture.shadows;
+        view.unseenMatters = game::unseenMatters(mOptions.picture.features);
         return view;
     }
 

@@ -382,7 +382,7 @@ Suite makeLookSuite() {
         if (std::string_view(row.demo).empty())
             continue;
         SequenceCase film = makeFilm(row);
-        film.shot.picture.shadows.mode = extract::ShadowMode::Blurred;
+        film.shot.picture.features.shadows.mode = shadows::ShadowMode::Blurred;
         film.shot.picture.bloom.share = 0.04f;
         suite.sequences.push_back(std::move(film));
     }

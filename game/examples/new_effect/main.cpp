@@ -28,7 +28,7 @@ core::Status draw(const char* scene, const char* out) {
     Vignette vignette(*device.value(), 1.0f);
     tonemap::Tonemap tonemap(*device.value(), {});
     const std::array<render::Effect*, 3> effects{&blur, &vignette, &tonemap};
-    auto frame = renderer.renderFrame(world, request, effects);
+    auto frame = renderer.renderFrame(world, request, {.effects = effects});
     return frame ? io::writeImage(out, frame.value().display) : frame.error();
 }
 

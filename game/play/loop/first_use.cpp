@@ -8,7 +8,7 @@ FirstUse::Needs FirstUse::findNeeds(const PlaySettings& settings) {
         settings.method,
         settings.split ? settings.leftMethod : std::string(),
         settings.picture.antiAliasing,
-        settings.picture.shadows.mode,
+        settings.picture.features.shadows.mode,
         settings.picture.bloom.share > 0.0f};
 }
 
@@ -19,7 +19,7 @@ PlaySettings FirstUse::reuse(const PlaySettings& wanted) const {
     if (settings.split)
         settings.leftMethod = mLast.leftMethod;
     settings.picture.antiAliasing = mLast.antiAliasing;
-    settings.picture.shadows.mode = mLast.shadows;
+    settings.picture.features.shadows.mode = mLast.shadows;
     if (!mLast.bloom)
         settings.picture.bloom.share = 0.0f;
     return settings;

@@ -27,7 +27,7 @@ class FirstUse {
         std::string method;
         std::string leftMethod; ///< empty: no split
         AntiAliasing antiAliasing = AntiAliasing::None;
-        extract::ShadowMode shadows = extract::ShadowMode::None;
+        shadows::ShadowMode shadows = shadows::ShadowMode::None;
         bool bloom = false;
 
         auto operator<=>(const Needs&) const = default;

@@ -29,16 +29,16 @@ void cycleView(std::span<const std::string> views, int step, std::string& view) 
     view = next == 0 ? std::string() : views[static_cast<size_t>(next - 1)];
 }
 
-extract::ShadowMode nextMode(extract::ShadowMode mode) {
+shadows::ShadowMode nextMode(shadows::ShadowMode mode) {
     switch (mode) {
-    case extract::ShadowMode::None:
-        return extract::ShadowMode::Sharp;
-    case extract::ShadowMode::Sharp:
-        return extract::ShadowMode::Blurred;
-    case extract::ShadowMode::Blurred:
+    case shadows::ShadowMode::None:
+        return shadows::ShadowMode::Sharp;
+    case shadows::ShadowMode::Sharp:
+        return shadows::ShadowMode::Blurred;
+    case shadows::ShadowMode::Blurred:
         break;
     }
-    return extract::ShadowMode::None;
+    return shadows::ShadowMode::None;
 }
 
 void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
@@ -47,7 +47,7 @@ void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
         picture.antiAliasing =
             picture.antiAliasing == AntiAliasing::None ? AntiAliasing::Taa : AntiAliasing::None;
     if (input.wasPressed(Key::Digit7))
-        picture.shadows.mode = nextMode(picture.shadows.mode);
+        picture.features.shadows.mode = nextMode(picture.features.shadows.mode);
     if (input.wasPressed(Key::Digit8))
         settings.environment = !settings.environment;
     if (input.wasPressed(Key::Digit9))

@@ -87,8 +87,7 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
     return a.view.camera == b.view.camera && a.view.width == b.view.width &&
            a.view.height == b.view.height && a.view.background == b.view.background &&
            a.view.ambient == b.view.ambient && a.view.environment == b.view.environment &&
-           a.view.particles == b.view.particles &&
-           core::areEqual(extract::listShadowRows(), a.view.shadows, b.view.shadows) &&
+           a.view.particles == b.view.particles && areEqual(a.features, b.features) &&
            first.open == second.open && first.raster == second.raster &&
            first.close == second.close &&
            core::areEqual(scene::listShutterRows(), first.shutter, second.shutter) &&
@@ -101,9 +100,12 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
            core::areEqual(scene::listLensRows(), a.lensAtClose, b.lensAtClose);
 }
 
-uint32_t PhotoMode::begin(const scene::World& world, const extract::ViewRequest& view) {
+uint32_t PhotoMode::begin(
+    const scene::World& world, const extract::ViewRequest& view, const FeatureSettings& features
+) {
     Picture picture{
         view,
+        features,
         scene::worldFromEntity(world, view.camera, view.exposure.open),
         scene::worldFromEntity(world, view.camera, view.exposure.close),
         scene::lensAt(world, view.camera, view.exposure.open),

@@ -34,8 +34,10 @@ class PhotoMode {
     [[nodiscard]] PlaySettings choose(const PlaySettings& settings, bool hasLens = false) const;
 
     /// Rays per pixel that the picture has had so far: 0 where it is another one than in the call
-    /// before, because the camera, the shutter or the size is.
-    [[nodiscard]] uint32_t begin(const scene::World& world, const extract::ViewRequest& view);
+    /// before, because the camera, the shutter, the size or a feature is.
+    [[nodiscard]] uint32_t begin(
+        const scene::World& world, const extract::ViewRequest& view, const FeatureSettings& features
+    );
 
     /// Rays per pixel that the frame after begin() adds, 0 or 1.
     [[nodiscard]] uint32_t raysToAdd() const { return mRays < kMaxRays ? 1 : 0; }
@@ -48,6 +50,7 @@ class PhotoMode {
   private:
     struct Picture {
         extract::ViewRequest view;
+        FeatureSettings features;
         math::dmat4 cameraAtOpen{1.0};
         math::dmat4 cameraAtClose{1.0};
         scene::CameraLens lensAtOpen;

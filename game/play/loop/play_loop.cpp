@@ -598,7 +598,9 @@ core::Status PlayLoop::drawPicture(double duration) {
         picture.readBack = false;
     }
     if (mPhoto.isTracing())
-        picture.moreRays = {mPhoto.begin(mStage->world(), picture.view), mPhoto.raysToAdd()};
+        picture.moreRays = {
+            mPhoto.begin(mStage->world(), picture.view, settings.picture.features),
+            mPhoto.raysToAdd()};
     SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, settings));
     if (mPhoto.isTracing())
         mPhoto.end();
@@ -624,7 +626,7 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx, const PlaySettings&
     picture.view.ambient = appearance.ambient;
     picture.view.environment = settings.environment;
     picture.view.particles = settings.picture.particles;
-    picture.view.shadows = settings.picture.shadows;
+    picture.view.unseenMatters = unseenMatters(settings.picture.features);
     picture.window.size = sizePx;
     const bool isBare = mFiles.wantsPhoto() || (mFiles.isFilming() && !mOptions.filmsHud);
     picture.window.overlay = isBare ? nullptr : &mScreen.ui();

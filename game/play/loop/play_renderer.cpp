@@ -91,6 +91,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     request.method.method = method.value();
     request.method.budget = computeBudget(settings, mOtherTimes[static_cast<size_t>(side)].find());
     request.antiAliasing = settings.picture.antiAliasing;
+    request.features = settings.picture.features;
     if (method.value()->family == MethodFamily::MotionBlur)
         request.method.motionBlur = makeBlurSettings(settings, *method.value());
     else

@@ -83,7 +83,7 @@ std::string SettingsKeeper::slowDown(const PlayOptions& options, PlaySettings& s
     const Preset& preset = *findPreset("performance").value();
     applyPreset(preset, settings);
     // More than half of the frame, by far the most of all effects (README.md, "Without a GPU").
-    settings.picture.shadows.mode = extract::ShadowMode::None;
+    settings.picture.features.shadows.mode = shadows::ShadowMode::None;
     applyOptions(options, settings);
     return fmt::format(
         "no GPU: started with the preset {} and without shadows; keys 1 to 9 change it", preset.name

@@ -345,10 +345,12 @@ std::string describeEffects(const PlaySettings& settings) {
     const PictureSettings& picture = settings.picture;
     if (picture.antiAliasing != AntiAliasing::None)
         add(core::describeValue(core::getRow(listPictureRows(), "antiAliasing"), picture));
-    if (picture.shadows.mode != extract::ShadowMode::None)
+    if (picture.features.shadows.mode != shadows::ShadowMode::None)
         add(fmt::format(
             "{} shadows",
-            core::describeValue(core::getRow(extract::listShadowRows(), "shadows"), picture.shadows)
+            core::describeValue(
+                core::getRow(shadows::listShadowRows(), "shadows"), picture.features.shadows
+            )
         ));
     if (settings.environment)
         add("sky");

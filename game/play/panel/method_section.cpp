@@ -206,7 +206,7 @@ void drawEffectSection(PlaySettings& settings) {
     const auto set = [&](bool environment, const PictureSettings& effects) {
         settings.environment = environment;
         settings.picture.antiAliasing = effects.antiAliasing;
-        settings.picture.shadows.mode = effects.shadows.mode;
+        settings.picture.features.shadows.mode = effects.features.shadows.mode;
         settings.picture.bloom.share = effects.bloom.share;
         settings.picture.particles = effects.particles;
     };

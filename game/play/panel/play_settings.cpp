@@ -51,10 +51,11 @@ bool isSharp(const Preset& preset) {
 }
 
 bool isSeen(const PresetEffects* effects, const PlaySettings& settings) {
-    return !effects || (settings.picture.antiAliasing == effects->antiAliasing &&
-                        settings.picture.shadows.mode == effects->shadows && settings.environment &&
-                        settings.picture.bloom.share == effects->bloomShare &&
-                        settings.depthOfField == effects->depthOfField);
+    return !effects ||
+           (settings.picture.antiAliasing == effects->antiAliasing &&
+            settings.picture.features.shadows.mode == effects->shadows && settings.environment &&
+            settings.picture.bloom.share == effects->bloomShare &&
+            settings.depthOfField == effects->depthOfField);
 }
 
 } // namespace
@@ -67,7 +68,7 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     if (!effects)
         return;
     settings.picture.antiAliasing = effects->antiAliasing;
-    settings.picture.shadows.mode = effects->shadows;
+    settings.picture.features.shadows.mode = effects->shadows;
     settings.environment = true;
     settings.picture.bloom.share = effects->bloomShare;
     settings.depthOfField = effects->depthOfField;
@@ -93,7 +94,7 @@ motion_blur::BlurBudget computeBudget(const PlaySettings& settings, double other
 PictureSettings makePlayPicture() {
     PictureSettings picture;
     picture.antiAliasing = AntiAliasing::Taa;
-    picture.shadows.mode = extract::ShadowMode::Blurred;
+    picture.features.shadows.mode = shadows::ShadowMode::Blurred;
     picture.bloom.share = 0.04f;
     return picture;
 }

@@ -193,8 +193,8 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
                 builder.read(inputs.rays.deformedBlasBuffer, Access::AccelerationRead);
             if (inputs.rays.deformedBuffer.isValid())
                 builder.read(inputs.rays.deformedBuffer, Access::ShaderRead);
-            if (inputs.rays.shadowBuffer.isValid())
-                builder.read(inputs.rays.shadowBuffer, Access::ShaderRead);
+            for (const graph::BufferHandle buffer : inputs.rays.shading)
+                builder.read(buffer, Access::ShaderRead);
             builder.read(inputs.color, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
             builder.read(inputs.entityId, Access::SampledCompute);

@@ -77,7 +77,8 @@ TEST(Suites, TheLookHasEachDemoWithShadowsAndBloomBeforeAPictureOfThePixelsMean)
     std::set<std::string> demos;
     for (const SequenceCase& film : suite.sequences) {
         demos.insert(film.demo);
-        EXPECT_EQ(film.shot.picture.shadows.mode, extract::ShadowMode::Blurred) << film.name;
+        EXPECT_EQ(film.shot.picture.features.shadows.mode, shadows::ShadowMode::Blurred)
+            << film.name;
         EXPECT_GT(film.shot.picture.bloom.share, 0.0f) << film.name;
     }
     EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));

@@ -152,9 +152,9 @@ TEST_F(ExposureParts, InvisibleJumpsAndThoseOfEntitiesWithoutAPastAreIgnored) {
     const ecs::Entity outside = addBox({0.0, 0.0, 10.0});
     blink(outside, {0.0f, 1.25f});
     EXPECT_TRUE(plan().empty()) << "behind the camera";
-    request.shadows.mode = ShadowMode::Sharp;
+    request.unseenMatters = true;
     EXPECT_EQ(plan().size(), 2u) << "it may cast a shadow into the picture";
-    request.shadows.mode = ShadowMode::None;
+    request.unseenMatters = false;
     const ecs::Entity hidden = addBox({0.0, 0.0, -8.0});
     blink(hidden, {0.0f, 1.25f});
     scene::hide(world, hidden);
@@ -275,15 +275,15 @@ TEST_F(MotionPartsTest, PartsFollowHowFarAMotionIsFromStraight) {
     EXPECT_GE(plan().count, 4u) << "a camera that turns once is not at rest either";
 }
 
-TEST_F(MotionPartsTest, ACasterBesideThePictureCountsWithShadowsOnly) {
+TEST_F(MotionPartsTest, AMoverBesideThePictureCountsWhereTheUnseenMatters) {
     // Behind the camera, by 5 m; at the raster instant it has moved by 1 m.
     addMover({0.0, 0.0, 5.0}, {1.0, 0.0, 0.0});
-    EXPECT_EQ(plan().casterPx, 0.0);
-    request.shadows.mode = ShadowMode::Sharp;
+    EXPECT_EQ(plan().unseenPx, 0.0);
+    request.unseenMatters = true;
     const double pixel = double{extract().constants.pixelFootprint.x} * std::hypot(5.0, 1.0);
-    EXPECT_NEAR(plan().casterPx, 1.0 / pixel, 1.0e-6 / pixel);
+    EXPECT_NEAR(plan().unseenPx, 1.0 / pixel, 1.0e-6 / pixel);
     request.unlit = true;
-    EXPECT_EQ(plan().casterPx, 0.0);
+    EXPECT_EQ(plan().unseenPx, 0.0);
 }
 
 TEST_F(MotionPartsTest, AMovingLightIsReportedUnlessThePictureIsUnlit) {

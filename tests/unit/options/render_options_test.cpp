@@ -227,7 +227,7 @@ TEST(RenderOptions, TheDefaultsAreThoseOfTheHelp) {
     EXPECT_EQ(picture.bloom.share, 0.0f);
     EXPECT_EQ(picture.bloom.threshold, 1.0f);
     EXPECT_EQ(picture.bloom.knee, 0.5f);
-    EXPECT_EQ(picture.shadows.mode, extract::ShadowMode::None);
+    EXPECT_EQ(picture.features.shadows.mode, shadows::ShadowMode::None);
     EXPECT_EQ(picture.tonemap.op, tonemap::Operator::Neutral);
     const CameraShutter& shutter = options.shot.shutter;
     const CameraShutter plain;
@@ -274,11 +274,11 @@ TEST(RenderOptions, ValuesOfThePictureAreTaken) {
     EXPECT_EQ(picture("--bloom=0.05").bloom.share, 0.05f);
     EXPECT_EQ(picture("--bloom-threshold=0").bloom.threshold, 0.0f);
     EXPECT_EQ(picture("--bloom-knee=1").bloom.knee, 1.0f);
-    EXPECT_EQ(picture("--shadows=sharp").shadows.mode, extract::ShadowMode::Sharp);
-    EXPECT_EQ(picture("--shadows=blurred").shadows.mode, extract::ShadowMode::Blurred);
-    EXPECT_EQ(picture("--shadow-map-size=2048").shadows.mapSize, 2048u);
-    EXPECT_EQ(picture("--shadow-distance=30").shadows.distance, 30.0);
-    EXPECT_EQ(picture("--shadow-instants=8").shadows.instants, 8u);
+    EXPECT_EQ(picture("--shadows=sharp").features.shadows.mode, shadows::ShadowMode::Sharp);
+    EXPECT_EQ(picture("--shadows=blurred").features.shadows.mode, shadows::ShadowMode::Blurred);
+    EXPECT_EQ(picture("--shadow-map-size=2048").features.shadows.mapSize, 2048u);
+    EXPECT_EQ(picture("--shadow-distance=30").features.shadows.distance, 30.0);
+    EXPECT_EQ(picture("--shadow-instants=8").features.shadows.instants, 8u);
     EXPECT_EQ(picture("--tonemap=none").tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(picture("--unlit").tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(picture("--ev=-32.0").tonemap.exposureValue, -32.0);
@@ -289,18 +289,18 @@ TEST(RenderOptions, APresetSetsWhatItSetsInPlayUnlessAnOptionIsGiven) {
     for (const std::string preset : {"balanced", "quality"}) {
         const PictureSettings settings = picture("--preset=" + preset);
         EXPECT_EQ(settings.antiAliasing, AntiAliasing::Taa) << preset;
-        EXPECT_EQ(settings.shadows.mode, extract::ShadowMode::Blurred) << preset;
+        EXPECT_EQ(settings.features.shadows.mode, shadows::ShadowMode::Blurred) << preset;
         EXPECT_EQ(settings.bloom.share, 0.04f) << preset;
     }
     const PictureSettings own =
         picture("--preset=balanced --aa=none --shadows=sharp --bloom=0 --shadow-map-size=2048");
     EXPECT_EQ(own.antiAliasing, AntiAliasing::None);
-    EXPECT_EQ(own.shadows.mode, extract::ShadowMode::Sharp);
-    EXPECT_EQ(own.shadows.mapSize, 2048u);
+    EXPECT_EQ(own.features.shadows.mode, shadows::ShadowMode::Sharp);
+    EXPECT_EQ(own.features.shadows.mapSize, 2048u);
     EXPECT_EQ(own.bloom.share, 0.0f);
     for (const std::string preset : {"off", "paper"})
         EXPECT_EQ(describe(picture("--preset=" + preset)), describe(PictureSettings())) << preset;
-    EXPECT_EQ(picture("--preset=performance").shadows.mode, extract::ShadowMode::Blurred);
+    EXPECT_EQ(picture("--preset=performance").features.shadows.mode, shadows::ShadowMode::Blurred);
     EXPECT_FALSE(accept("--preset=performance").shot.usesLens);
     EXPECT_TRUE(accept("--preset=performance --fstop=2.8").shot.usesLens);
     EXPECT_TRUE(accept("--preset=balanced").shot.usesLens);

@@ -223,14 +223,14 @@ TEST(Presets, PresetsSetTheOtherEffectsUnlessTheyCompareTheBlur) {
     };
     apply("performance");
     EXPECT_EQ(settings.picture.antiAliasing, game::AntiAliasing::None);
-    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Blurred);
+    EXPECT_EQ(settings.picture.features.shadows.mode, shadows::ShadowMode::Blurred);
     EXPECT_EQ(settings.picture.bloom.share, 0.0f);
     EXPECT_FALSE(settings.depthOfField);
     settings.environment = false;
-    settings.picture.shadows.mode = extract::ShadowMode::Sharp;
+    settings.picture.features.shadows.mode = shadows::ShadowMode::Sharp;
     for (const char* name : {"off", "paper"}) {
         apply(name);
-        EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Sharp) << name;
+        EXPECT_EQ(settings.picture.features.shadows.mode, shadows::ShadowMode::Sharp) << name;
         EXPECT_FALSE(settings.environment) << name;
     }
     apply("balanced");

@@ -377,7 +377,7 @@ class Photo : public ::testing::Test {
     }
 
     uint32_t draw() {
-        const uint32_t before = mode.begin(world, view);
+        const uint32_t before = mode.begin(world, view, features);
         mode.end();
         return before;
     }
@@ -385,6 +385,7 @@ class Photo : public ::testing::Test {
     scene::World world;
     ecs::Entity camera;
     extract::ViewRequest view;
+    FeatureSettings features;
     PhotoMode mode;
 };
 
@@ -406,6 +407,7 @@ TEST_F(Photo, AChangedPictureRestartsThePhoto) {
         [&] { view.height = 49; },
         [&] { view.background.x += 0.5f; },
         [&] { view.ambient.y += 0.5f; },
+        [&] { features.shadows.mode = shadows::ShadowMode::Sharp; },
         [&] { view.exposure = scene::computeExposure({}, 2.0); },
         [&] { view.exposure.shutter.objectScale = 0.5; },
         [&] { view.exposure.shutter.response.shape = scene::ResponseShape::Triangle; },

@@ -49,7 +49,7 @@ TEST(PlayOptions, EffectsAreTheSettingsUnlessTheyAreTyped) {
     app.parse(std::vector<std::string>{
         "height", "--frame-fit", "0", "--sky", "0.1", "--bloom", "sharp", "--shadows"});
     options = interpret(arguments).value();
-    EXPECT_EQ(options.shot.picture.shadows.mode, extract::ShadowMode::Sharp);
+    EXPECT_EQ(options.shot.picture.features.shadows.mode, shadows::ShadowMode::Sharp);
     EXPECT_EQ(options.shot.picture.frameFit, extract::FrameFit::Height);
     EXPECT_EQ(options.shot.picture.bloom.share, 0.1f);
     EXPECT_EQ(options.environment, false);
@@ -189,8 +189,8 @@ TEST_F(Keeper, WithoutAGpuTheBudgetIsAShareOfTheFrameAndAPresetOfTheOptionsStays
     settings.budget.milliseconds = 16.0;
     PlayOptions options;
     EXPECT_NE(SettingsKeeper::slowDown(options, settings), "");
-    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::None);
-    settings.picture.shadows.mode = extract::ShadowMode::Blurred;
+    EXPECT_EQ(settings.picture.features.shadows.mode, shadows::ShadowMode::None);
+    settings.picture.features.shadows.mode = shadows::ShadowMode::Blurred;
     EXPECT_TRUE(isApplied(*findPreset("performance").value(), settings));
     EXPECT_TRUE(settings.budget.isUnlimited());
     EXPECT_EQ(settings.budgetShare, 0.25);
@@ -202,9 +202,9 @@ TEST_F(Keeper, WithoutAGpuTheBudgetIsAShareOfTheFrameAndAPresetOfTheOptionsStays
     settings.budgetShare = 1.0;
     EXPECT_EQ(computeBudget(settings, 3.0).milliseconds, 16.0);
     options.typed.insert("--shadows");
-    options.shot.picture.shadows.mode = extract::ShadowMode::Sharp;
+    options.shot.picture.features.shadows.mode = shadows::ShadowMode::Sharp;
     EXPECT_NE(SettingsKeeper::slowDown(options, settings), "");
-    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Sharp) << "an option's";
+    EXPECT_EQ(settings.picture.features.shadows.mode, shadows::ShadowMode::Sharp) << "an option's";
     options.preset = findPreset("quality").value();
     settings.method = "adaptive";
     EXPECT_EQ(SettingsKeeper::slowDown(options, settings), "");
@@ -298,7 +298,7 @@ TEST_F(Hotkeys, FFocusesOnTheMiddleAndWithShiftAsTheCameraDoes) {
 
 TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
     settings.picture.antiAliasing = AntiAliasing::None;
-    settings.picture.shadows.mode = extract::ShadowMode::None;
+    settings.picture.features.shadows.mode = shadows::ShadowMode::None;
     settings.environment = false;
     settings.picture.bloom.share = 0.0f;
     settings.picture.particles = false;

@@ -2,16 +2,16 @@
 // Where in a picture the shadows of movers may fall, found from boxes. Pure, in world space.
 #pragma once
 
-#include "engine/extract/shadow_casters.h"
-#include "engine/extract/shadow_views.h"
 #include "engine/math/bounds.h"
 #include "engine/math/math.h"
+#include "modules/shadows/shadow_casters.h"
+#include "modules/shadows/shadow_views.h"
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// The picture that receives the shadows.
 struct ShadowPicture {
@@ -59,4 +59,4 @@ class ShadowTiles {
     std::vector<uint32_t> mMovers;
 };
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

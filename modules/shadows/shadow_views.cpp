@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_views.h"
+#include "modules/shadows/shadow_views.h"
 
-#include "shaders/render/shadow_shared.h"
+#include "shaders/shadows/shadow_shared.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -205,4 +205,4 @@ LightView fitPointLayer(const dvec3& position, const Sphere& mover, uint32_t siz
         2.0 * tangent / double(sizePx)};
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

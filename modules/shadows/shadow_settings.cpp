@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_settings.h"
+#include "modules/shadows/shadow_settings.h"
 
 #include <array>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 core::SettingRows<ShadowSettings> listShadowRows() {
     using S = ShadowSettings;
@@ -41,4 +41,4 @@ core::SettingRows<ShadowSettings> listShadowRows() {
     return kRows;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 enum class ShadowMode : uint8_t {
     None,    ///< lights shine through everything
@@ -29,4 +29,4 @@ struct ShadowSettings {
 /// Names, ranges and options of ShadowSettings.
 [[nodiscard]] core::SettingRows<ShadowSettings> listShadowRows();
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

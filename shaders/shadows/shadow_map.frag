@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SHUTTER_UNIFORM_MATERIAL
 #include "render/scene_bindings.glsl"
-#include "render/shadow_shared.h"
+#include "shadows/shadow_shared.h"
 
 layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: texels below the cutoff are dropped
 

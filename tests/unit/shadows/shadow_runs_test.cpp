@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lookup of receivers in the layers of movers over the exposure, and the tiles.
-#include "engine/extract/shadow_runs.h"
-#include "engine/extract/shadow_tiles.h"
-#include "shaders/render/shadow_filter.glsl"
+#include "modules/shadows/shadow_runs.h"
+#include "modules/shadows/shadow_tiles.h"
+#include "shaders/shadows/shadow_filter.glsl"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <random>
 #include <ranges>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 namespace {
 
 using math::dmat4;
@@ -261,7 +261,7 @@ TEST_F(ShadowRuns, FlatThingsNeedFewerLayersThanThickOnes) {
     EXPECT_EQ(countParts(caster, mover.path, {&light, 1}), 3u) << "however flat it is";
 }
 
-constexpr uint32_t kTile = shader::kShadowTilePx;
+constexpr uint32_t kTile = shader::kChangingTilePx;
 
 class ShadowTilesOfScenes : public RandomShadows {
   protected:
@@ -397,4 +397,4 @@ TEST_F(ShadowTilesOfScenes, AShadowIsAsWideAsTheCameraIsNearToIt) {
 }
 
 } // namespace
-} // namespace shutter::extract
+} // namespace shutter::shadows

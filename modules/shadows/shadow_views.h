@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// A view of a light. Depth is reversed.
 struct LightView {
@@ -87,4 +87,4 @@ fitPointLayer(const math::dvec3& position, const Sphere& mover, uint32_t sizePx)
 /// Whether fitPointLayer() can show the sphere: the light is far enough from it.
 [[nodiscard]] bool fitsPointLayer(const math::dvec3& position, const Sphere& mover);
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

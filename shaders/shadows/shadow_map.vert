@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "render/scene_bindings.glsl"
-#include "render/shadow_shared.h"
+#include "shadows/shadow_shared.h"
 
 layout(push_constant, scalar) uniform Push { ShadowDraw draw; };
 

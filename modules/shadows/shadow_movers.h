@@ -3,15 +3,15 @@
 // instant, and the mapping into their layers. Pure functions.
 #pragma once
 
-#include "engine/extract/shadow_casters.h"
-#include "engine/extract/shadow_plan.h"
 #include "engine/scene/components.h"
+#include "modules/shadows/shadow_casters.h"
+#include "modules/shadows/shadow_plan.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// A light that casts shadows, in the world.
 struct PlacedLight {
@@ -45,4 +45,4 @@ uint32_t addMovers(
     uint32_t instantCount
 );
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_casters.h"
+#include "modules/shadows/shadow_casters.h"
 
 #include "engine/extract/extracted_frame.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -70,7 +70,7 @@ dmat3 makeShape(const dmat4& worldFromObject, const math::Bounds& bounds) {
 }
 
 /// Where a shape is between those of shutter open, raster instant and close, as ShadowDraw has it.
-float findShapeShift(const ShutterTimes& times, double s) {
+float findShapeShift(const extract::ShutterTimes& times, double s) {
     const double end = s < times.raster ? times.open : times.close;
     if (end == times.raster)
         return 0.0f;
@@ -81,13 +81,17 @@ float findShapeShift(const ShutterTimes& times, double s) {
 } // namespace
 
 ShadowCaster makeShadowCaster(
-    const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row, const dvec3& eye
+    const extract::ExtractedFrame& frame,
+    const extract::SceneLayout& layout,
+    uint32_t row,
+    const dvec3& eye
 ) {
     const dmat4& worldFromObject = frame.worldFromObject[row];
-    math::Bounds bounds = findRowBounds(frame, layout, row);
+    math::Bounds bounds = extract::findRowBounds(frame, layout, row);
     ShadowCaster caster;
     caster.row = row;
-    if (const DeformedEntity* deformed = findDeformed(frame, row); deformed && deformed->changes) {
+    if (const extract::DeformedEntity* deformed = extract::findDeformed(frame, row);
+        deformed && deformed->changes) {
         caster.deforms = true;
         const scene::PoseReach& reach = layout.reaches[deformed->mesh];
         bounds.add(scene::computeDeformedBounds(reach, deformed->open));
@@ -102,7 +106,10 @@ ShadowCaster makeShadowCaster(
 }
 
 CasterPath followCaster(
-    const ShadowCaster& caster, const FrameView& view, const ExtractedFrame& frame, uint32_t count
+    const ShadowCaster& caster,
+    const extract::FrameView& view,
+    const extract::ExtractedFrame& frame,
+    uint32_t count
 ) {
     const dmat4 objectFromRaster = glm::inverse(frame.worldFromObject[caster.row]);
     CasterPath path;
@@ -110,7 +117,7 @@ CasterPath followCaster(
     bool moves = caster.deforms;
     for (const double s : scene::middlesOfLight(view.motion().exposure(), count)) {
         const dmat4 instant = view.motion().worldFromObject(frame.entityHandles[caster.row], s);
-        const dmat4 motion = isDrawable(instant) ? instant * objectFromRaster : dmat4(1.0);
+        const dmat4 motion = extract::isDrawable(instant) ? instant * objectFromRaster : dmat4(1.0);
         moves = moves || motion != dmat4(1.0);
         centres.add(dvec3(motion * dvec4(caster.sphere.centre, 1.0)));
         path.instants.push_back(
@@ -155,4 +162,4 @@ countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const L
     return parts < 2 ? 0 : parts;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

@@ -4,7 +4,7 @@
 #define SHUTTER_SHADOW_FILTER_GLSL
 
 #include "common/numeric.glsl"
-#include "render/shadow_shared.h"
+#include "shadows/shadow_shared.h"
 
 SHUTTER_SHADER_BEGIN
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_plan.h"
+#include "modules/shadows/shadow_plan.h"
 
 #include "engine/core/check.h"
 #include "engine/core/words.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/extract/frame_view.h"
-#include "engine/extract/shadow_casters.h"
-#include "engine/extract/shadow_movers.h"
-#include "engine/extract/shadow_tiles.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
+#include "modules/shadows/shadow_casters.h"
+#include "modules/shadows/shadow_movers.h"
+#include "modules/shadows/shadow_tiles.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include <cmath>
 #include <limits>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -29,7 +29,7 @@ using math::dvec4;
 /// Share of the scene's extent that a light's near plane is away from it.
 constexpr double kNearShare = 1.0e-4;
 
-bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
+bool castsShadows(const extract::SceneLayout& layout, uint32_t mesh) {
     for (uint32_t i = layout.firstGeometry[mesh]; i < layout.firstGeometry[mesh + 1]; ++i)
         if (layout.geometries[i].alphaMode != scene::AlphaMode::Blend)
             return true;
@@ -43,18 +43,13 @@ constexpr uint32_t kMinLayerSize = 16;
 /// Plans one frame.
 class Planner {
   public:
-    Planner(
-        const scene::World& world,
-        const SceneLayout& layout,
-        const ViewRequest& view,
-        const FrameView& frameView,
-        const ExtractedFrame& frame,
-        bool keepsExposure
-    )
-        : mWorld(world), mLayout(layout), mView(view), mFrame(frame), mFrameView(frameView),
+    Planner(const render::RasterExtract& raster, const ShadowSettings& settings)
+        : mWorld(raster.world), mLayout(raster.layout), mView(raster.view), mFrame(raster.frame),
+          mFrameView(raster.frameView), mSettings(settings),
           mBlurs(
-              view.shadows.mode == ShadowMode::Blurred && (keepsExposure || !view.instant) &&
-              view.exposure.close > view.exposure.open
+              settings.mode == ShadowMode::Blurred &&
+              (raster.kind != render::RasterKind::Own || !mView.instant) &&
+              mView.exposure.close > mView.exposure.open
           ) {}
 
     ShadowPlan run() {
@@ -73,7 +68,7 @@ class Planner {
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
         for (const PlacedLight& light : mLights)
             addLayers(light);
-        const uint32_t instants = mBlurs ? mView.shadows.instants : 1;
+        const uint32_t instants = mBlurs ? mSettings.instants : 1;
         mMoving = addMovers(mPlan, mMovers, mLights, instants);
         mPlan.instantCount = mMoving == 0 ? 1 : instants;
         markTiles();
@@ -83,7 +78,7 @@ class Planner {
 
   private:
     core::Decision decide() {
-        if (mView.shadows.mode == ShadowMode::None)
+        if (mSettings.mode == ShadowMode::None)
             return {false, "no shadows are requested"};
         if (mView.unlit)
             return {false, "the picture is unlit"};
@@ -96,7 +91,7 @@ class Planner {
         for (uint32_t row = 0; row < mFrame.entities.size(); ++row) {
             casters += castsShadows(mLayout, mFrame.entityMeshes[row]);
             const math::Bounds box = math::transformBounds(
-                mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row)
+                mFrame.worldFromObject[row], extract::findRowBounds(mFrame, mLayout, row)
             );
             mScene.add(box);
             // Outside of the box: a box that surrounds the camera gives no bound for the distance.
@@ -117,7 +112,7 @@ class Planner {
     }
 
     void collectLights() {
-        const size_t count = std::min<size_t>(mFrame.lights.size(), shader::kMaxShadowLights);
+        const size_t count = std::min<size_t>(mFrame.lights.size(), shader::kMaxOccludedLights);
         for (uint32_t i = 0; i < count; ++i) {
             const ecs::Entity entity = mFrame.lightEntities[i];
             PlacedLight placed{i, mWorld.registry.get<scene::Light>(entity)};
@@ -181,7 +176,7 @@ class Planner {
             lights.push_back(light.place());
         size_t left = kMaxPartLayers / lights.size();
         for (PlannedMover& mover : mMovers) {
-            mover.path = followCaster(mover.caster, mFrameView, mFrame, mView.shadows.instants);
+            mover.path = followCaster(mover.caster, mFrameView, mFrame, mSettings.instants);
             const uint32_t parts = countParts(mover.caster, mover.path, lights);
             if (parts == 0 || parts > left)
                 continue;
@@ -212,7 +207,7 @@ class Planner {
     }
 
     void addLightMaps(const PlacedLight& light) {
-        const uint32_t size = mView.shadows.mapSize;
+        const uint32_t size = mSettings.mapSize;
         const double near = kNearShare * std::max(glm::length(mScene.size()), 1.0e-3);
         shader::ShadowLight& row = mPlan.lights[light.index];
         row.firstMap = static_cast<uint32_t>(mPlan.maps.size());
@@ -239,7 +234,7 @@ class Planner {
     /// Width of the layers of a mover, texels.
     [[nodiscard]] uint32_t
     findLayerSize(const PlacedLight& light, const PlannedMover& mover) const {
-        const uint32_t most = mView.shadows.mapSize / 4;
+        const uint32_t most = mSettings.mapSize / 4;
         if (!light.isDirectional())
             return most;
         const double wanted = kLayerTexelsPerPixel *
@@ -307,8 +302,8 @@ class Planner {
             farthest = std::max(farthest, glm::dot(point - eye(), forward));
         }
         const double least = 2.0 * mWorld.registry.get<scene::Camera>(mView.camera).near;
-        if (mView.shadows.distance > 0.0)
-            farthest = std::min(farthest, mView.shadows.distance);
+        if (mSettings.distance > 0.0)
+            farthest = std::min(farthest, mSettings.distance);
         return std::max(farthest, least);
     }
 
@@ -330,12 +325,12 @@ class Planner {
             for (const PlacedLight& light : mLights)
                 tiles.mark(i, boundShadow(picture(), sphere, light.place()));
         }
-        mPlan.tiles = tiles.movers();
-        mPlan.tilesAcross = tiles.across();
+        mPlan.tiles = {tiles.across()};
+        mPlan.tiles.insert(mPlan.tiles.end(), tiles.movers().begin(), tiles.movers().end());
     }
 
     void explainBlur() {
-        if (mView.shadows.mode != ShadowMode::Blurred)
+        if (mSettings.mode != ShadowMode::Blurred)
             mPlan.blur = {false, "sharp shadows are requested"};
         else if (!mBlurs)
             mPlan.blur = {false, "the picture is of one instant"};
@@ -355,10 +350,11 @@ class Planner {
     }
 
     const scene::World& mWorld;
-    const SceneLayout& mLayout;
-    const ViewRequest& mView;
-    const ExtractedFrame& mFrame;
-    const FrameView& mFrameView;
+    const extract::SceneLayout& mLayout;
+    const extract::ViewRequest& mView;
+    const extract::ExtractedFrame& mFrame;
+    const extract::FrameView& mFrameView;
+    const ShadowSettings& mSettings;
     bool mBlurs = false;
     std::vector<PlacedLight> mLights;
     math::Bounds mScene; ///< all rows, world space
@@ -372,15 +368,8 @@ class Planner {
 
 } // namespace
 
-ShadowPlan planShadows(
-    const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
-    const FrameView& frameView,
-    const ExtractedFrame& frame,
-    bool keepsExposure
-) {
-    return Planner(world, layout, view, frameView, frame, keepsExposure).run();
+ShadowPlan planShadows(const render::RasterExtract& raster, const ShadowSettings& settings) {
+    return Planner(raster, settings).run();
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

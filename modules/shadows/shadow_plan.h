@@ -5,15 +5,15 @@
 
 #include "engine/core/result.h"
 #include "engine/extract/extracted_frame.h"
-#include "engine/extract/frame_view.h"
-#include "engine/extract/shadow_settings.h"
-#include "engine/extract/shadow_views.h"
-#include "shaders/render/shadow_shared.h"
+#include "engine/render/shading_feature.h"
+#include "modules/shadows/shadow_settings.h"
+#include "modules/shadows/shadow_views.h"
+#include "shaders/shadows/shadow_shared.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// Maximum number of movers with separate layers; the apparently largest come first. The others are
 /// drawn into the lights' maps, which are then redrawn each frame, and their shadows stay sharp.
@@ -47,22 +47,13 @@ struct ShadowPlan {
     std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
     std::vector<shader::CasterSpan> runs;        ///< by light that is far away, then by mover
     uint32_t instantCount = 1;
-    std::vector<uint32_t> tiles; ///< ShadowConstants::tiles
-    uint32_t tilesAcross = 0;
+    std::vector<uint32_t> tiles; ///< shader::kSlotChanging: bits of movers
     uint64_t texelCount = 0;
     math::dvec3 eye{0.0}; ///< origin of the frame's camera-relative space, in the world
 };
 
-/// \param view the frame's; with an instant, shadows are those of that instant alone
-/// \param frameView of `view`
-/// \param keepsExposure although the view has an instant, shadows are means over the exposure
-[[nodiscard]] ShadowPlan planShadows(
-    const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
-    const FrameView& frameView,
-    const ExtractedFrame& frame,
-    bool keepsExposure
-);
+/// \param raster with an instant, shadows of RasterKind::Own are those of that instant alone
+[[nodiscard]] ShadowPlan
+planShadows(const render::RasterExtract& raster, const ShadowSettings& settings);
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_movers.h"
+#include "modules/shadows/shadow_movers.h"
 
-#include "engine/extract/shadow_runs.h"
+#include "modules/shadows/shadow_runs.h"
 
 #include <algorithm>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -126,4 +126,4 @@ uint32_t addMovers(
     return moving;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

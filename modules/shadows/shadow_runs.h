@@ -3,16 +3,16 @@
 // linearly over a few instants, so that a shader computes them once. Pure functions.
 #pragma once
 
-#include "engine/extract/shadow_casters.h"
-#include "engine/extract/shadow_views.h"
 #include "engine/math/math.h"
-#include "shaders/render/shadow_shared.h"
+#include "modules/shadows/shadow_casters.h"
+#include "modules/shadows/shadow_views.h"
+#include "shaders/shadows/shadow_shared.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// How far a run may take a point of its mover from where the instant has it, texels.
 inline constexpr double kMaxRunError = 0.25;
@@ -57,4 +57,4 @@ struct MoverLayer {
     const math::dvec3& eye
 );
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

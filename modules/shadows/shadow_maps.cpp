@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/shadow_maps.h"
+#include "modules/shadows/shadow_maps.h"
 
-#include "spirv/render/shadow_map.frag.h"
-#include "spirv/render/shadow_map.vert.h"
+#include "spirv/shadows/shadow_map.frag.h"
+#include "spirv/shadows/shadow_map.vert.h"
 
 #include "engine/core/words.h"
 #include "engine/extract/extracted_frame.h"
@@ -16,7 +16,7 @@
 #include <cstring>
 #include <utility>
 
-namespace shutter::render {
+namespace shutter::shadows {
 
 namespace {
 
@@ -34,8 +34,8 @@ constexpr size_t kMaxImages = 4;
 gpu::GraphicsPipelineDesc describeCasters(const gpu_scene::GpuScene& scene, bool masked) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "shadow map";
-    desc.vertexSpirv = render_shadow_map_vert;
-    desc.fragmentSpirv = render_shadow_map_frag;
+    desc.vertexSpirv = shadows_shadow_map_vert;
+    desc.fragmentSpirv = shadows_shadow_map_frag;
     desc.interface.pushConstantBytes = sizeof(shader::ShadowDraw);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {masked};
@@ -69,7 +69,7 @@ class TableWriter {
 };
 
 // Each map has both rows; the light's kind selects the one that is read.
-shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye) {
+shader::ShadowMap makeRow(const PlannedMap& map, const math::dvec3& eye) {
     shader::ShadowMap row{};
     row.clipFromRelWorld =
         math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
@@ -79,7 +79,7 @@ shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye
     return row;
 }
 
-shader::ShadowCascade makeCascade(const extract::PlannedMap& map, const math::dvec3& eye) {
+shader::ShadowCascade makeCascade(const PlannedMap& map, const math::dvec3& eye) {
     const math::dmat4 clip = map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye);
     const double half = 0.5 * map.sizePx;
     const double rounding = 1.0 + double(shader::kDepthScaleRounding);
@@ -109,7 +109,7 @@ class ShadowRecorder {
     }
 
     /// \param shapeShift ShadowDraw's, of all that is drawn
-    void begin(const extract::LightView& view, const VkRect2D& place, float shapeShift) {
+    void begin(const LightView& view, const VkRect2D& place, float shapeShift) {
         VkViewport viewport{};
         viewport.x = float(place.offset.x);
         viewport.y = float(place.offset.y);
@@ -160,7 +160,7 @@ class ShadowRecorder {
     const extract::ExtractedFrame& mFrame;
     const gpu_scene::GpuScene& mScene;
     math::uvec2 mConstants;
-    const extract::LightView* mView = nullptr;
+    const LightView* mView = nullptr;
     float mShapeShift = 0.0f;
     const gpu::Pipeline* mBound = nullptr;
 };
@@ -170,7 +170,7 @@ constexpr uint64_t kMinLayers = 16;
 
 /// Texels of the plan's maps, with spare room for layers: each time the buffer is recreated for a
 /// new mover, all maps are drawn again.
-uint64_t countRoom(const extract::ShadowPlan& plan) {
+uint64_t countRoom(const ShadowPlan& plan) {
     uint64_t layers = 0;
     uint64_t largest = 0;
     for (size_t i = plan.lightMapCount; i < plan.maps.size(); ++i) {
@@ -189,12 +189,8 @@ uint64_t countRoom(const extract::ShadowPlan& plan) {
 ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : solid(device, describeCasters(scene, false)), masked(device, describeCasters(scene, true)) {}
 
-core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
+core::Status ShadowMaps::prepare(ShadowPlan plan) {
     mPlan = std::move(plan);
-    if (!mPlan.shadows.run) {
-        mImages.clear();
-        return {};
-    }
     SHUTTER_TRY(checkFit());
     if (mTexels.bytes() < mPlan.texelCount * sizeof(float)) {
         mTexels = gpu::Buffer(
@@ -208,7 +204,7 @@ core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
     }
     std::vector<shader::ShadowMap> maps;
     std::vector<shader::ShadowCascade> cascades;
-    for (const extract::PlannedMap& map : mPlan.maps) {
+    for (const PlannedMap& map : mPlan.maps) {
         maps.push_back(makeRow(map, mPlan.eye));
         cascades.push_back(makeCascade(map, mPlan.eye));
     }
@@ -221,7 +217,7 @@ core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
     const size_t moversAt = writer.add(mPlan.movers);
     const size_t instantsAt = writer.add(mPlan.instants);
     const size_t runsAt = writer.add(mPlan.runs);
-    const size_t tilesAt = writer.add(mPlan.tiles);
+    mTilesAt = writer.add(mPlan.tiles);
     if (mTables.bytes() < writer.bytes().size())
         mTables = gpu::Buffer(
             mDevice,
@@ -238,8 +234,6 @@ core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
     constants.movers = addressOf(moversAt);
     constants.instants = addressOf(instantsAt);
     constants.runs = addressOf(runsAt);
-    constants.tiles = addressOf(tilesAt);
-    constants.tilesAcross = mPlan.tilesAcross;
     constants.lightCount = static_cast<uint32_t>(mPlan.lights.size());
     constants.moverCount = static_cast<uint32_t>(mPlan.movers.size());
     constants.instantCount = mPlan.instantCount;
@@ -248,7 +242,7 @@ core::Status ShadowMaps::prepare(extract::ShadowPlan plan) {
     return {};
 }
 
-ShadowMaps::Kept ShadowMaps::describe(const extract::PlannedMap& map) const {
+ShadowMaps::Kept ShadowMaps::describe(const PlannedMap& map) const {
     return {map.view.clipFromWorld, map.sizePx, map.firstTexel, mPlan.casterRevision};
 }
 
@@ -345,8 +339,6 @@ graph::BufferHandle ShadowMaps::declare(
     VkDeviceAddress frameConstants
 ) {
     mDrawn.clear();
-    if (!mPlan.shadows.run)
-        return {};
     const gpu::Image* target = prepareImage(placeMaps());
     graph::BufferHandle texels =
         graph.importBuffer("shadow maps", mTexels.handle(), mTexels.bytes());
@@ -373,7 +365,7 @@ graph::BufferHandle ShadowMaps::declare(
         ) {
             ShadowRecorder recorder(context, pipelines, frame, scene, frameConstants);
             for (const Drawn& drawn : mDrawn) {
-                const extract::PlannedMap& map = mPlan.maps[drawn.map];
+                const PlannedMap& map = mPlan.maps[drawn.map];
                 recorder.begin(map.view, drawn.place, map.shapeShift);
                 if (map.mover != shader::kNoEntity)
                     recorder.draw(map.mover);
@@ -399,7 +391,7 @@ graph::BufferHandle ShadowMaps::declare(
         [this](const Keep& data, graph::PassContext& context) {
             std::vector<VkBufferImageCopy> copies;
             for (const Drawn& drawn : mDrawn) {
-                const extract::PlannedMap& map = mPlan.maps[drawn.map];
+                const PlannedMap& map = mPlan.maps[drawn.map];
                 VkBufferImageCopy copy{};
                 copy.bufferOffset = VkDeviceSize{map.firstTexel} * sizeof(float);
                 copy.bufferRowLength = shader::shadowRowTexels(map.sizePx);
@@ -425,4 +417,4 @@ graph::BufferHandle ShadowMaps::declare(
     return keep.texels;
 }
 
-} // namespace shutter::render
+} // namespace shutter::shadows

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_runs.h"
+#include "modules/shadows/shadow_runs.h"
 
-#include "shaders/render/shadow_filter.glsl"
+#include "shaders/shadows/shadow_filter.glsl"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -195,4 +195,4 @@ std::vector<shader::CasterSpan> makeRuns(
     return runs;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

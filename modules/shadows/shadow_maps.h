@@ -4,16 +4,16 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
-#include "engine/extract/shadow_plan.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
+#include "modules/shadows/shadow_plan.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace shutter::render {
+namespace shutter::shadows {
 
 /// The pipelines of shadow maps; one set per scene, whose texture table they know.
 struct ShadowPipelines {
@@ -29,18 +29,20 @@ class ShadowMaps {
   public:
     explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
 
-    /// Makes the tables. Error: the plan's maps do not fit an image of the device.
-    core::Status prepare(extract::ShadowPlan plan);
+    /// Makes the tables. \param plan with shadows
+    /// Error: its maps do not fit an image of the device.
+    core::Status prepare(ShadowPlan plan);
 
-    /// Returns the address of the prepared shader::ShadowConstants; 0 without shadows.
-    [[nodiscard]] VkDeviceAddress constants() const {
-        return mPlan.shadows.run ? mTables.address() : 0;
-    }
+    /// Address of the prepared shader::ShadowConstants.
+    [[nodiscard]] VkDeviceAddress constants() const { return mTables.address(); }
 
-    /// Declares the passes of the prepared plan: none without shadows. `frame` and `scene` must
-    /// live until they have been recorded.
+    /// Address of the prepared ShadowPlan::tiles.
+    [[nodiscard]] VkDeviceAddress tiles() const { return mTables.address() + mTilesAt; }
+
+    /// Declares the passes of the prepared plan. `frame` and `scene` must live until they have been
+    /// recorded.
     /// \param shapes vertices of deformed meshes; invalid: there are none
-    /// \return the buffer that shading reads with Access::ShaderRead; invalid: there are no shadows
+    /// \return the buffer that shading reads with Access::ShaderRead
     [[nodiscard]] graph::BufferHandle declare(
         graph::Graph& graph,
         const ShadowPipelines& pipelines,
@@ -49,12 +51,6 @@ class ShadowMaps {
         graph::BufferHandle shapes,
         VkDeviceAddress frameConstants
     );
-
-    /// The plan of the frame prepared last.
-    [[nodiscard]] const extract::ShadowPlan& plan() const { return mPlan; }
-
-    /// Maps and layers that the passes declared last draw.
-    [[nodiscard]] size_t drawnCount() const { return mDrawn.size(); }
 
   private:
     /// A map's place in the image that maps are drawn into.
@@ -73,7 +69,7 @@ class ShadowMaps {
         bool operator==(const Kept&) const = default;
     };
 
-    [[nodiscard]] Kept describe(const extract::PlannedMap& map) const;
+    [[nodiscard]] Kept describe(const PlannedMap& map) const;
     [[nodiscard]] core::Status checkFit();
     /// Which maps have to be drawn, and where. \return the size of the image; 0: none has to be
     VkExtent2D placeMaps();
@@ -86,12 +82,13 @@ class ShadowMaps {
     const gpu::Image* prepareImage(VkExtent2D size);
 
     gpu::Device& mDevice;
-    extract::ShadowPlan mPlan;
-    gpu::Buffer mTables; ///< mapped
+    ShadowPlan mPlan;
+    gpu::Buffer mTables;       ///< mapped
+    VkDeviceSize mTilesAt = 0; ///< in mTables
     gpu::Buffer mTexels;
     std::vector<Kept> mKept; ///< by index of the lights' maps
     std::vector<Drawn> mDrawn;
     std::vector<gpu::Image> mImages; ///< that maps are drawn into, the one used last at the end
 };
 
-} // namespace shutter::render
+} // namespace shutter::shadows

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/shadow_tiles.h"
+#include "modules/shadows/shadow_tiles.h"
 
-#include "shaders/render/shadow_shared.h"
+#include "shaders/shadows/shadow_shared.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 namespace {
 
@@ -99,15 +99,15 @@ double findShadowWidth(const ShadowPicture& picture, const Sphere& caster, const
 }
 
 ShadowTiles::ShadowTiles(const math::uvec2& sizePx)
-    : mAcross((sizePx.x + shader::kShadowTilePx - 1) / shader::kShadowTilePx),
-      mDown((sizePx.y + shader::kShadowTilePx - 1) / shader::kShadowTilePx),
+    : mAcross((sizePx.x + shader::kChangingTilePx - 1) / shader::kChangingTilePx),
+      mDown((sizePx.y + shader::kChangingTilePx - 1) / shader::kChangingTilePx),
       mMovers(size_t{mAcross} * mDown, 0) {}
 
 void ShadowTiles::mark(uint32_t mover, const std::optional<PixelBox>& box) {
     const auto tilesOf = [&](int axis, uint32_t count) {
         if (!box)
             return std::pair(0u, count);
-        const double tile = shader::kShadowTilePx;
+        const double tile = shader::kChangingTilePx;
         const auto clampTile = [&](double at) {
             return uint32_t(std::clamp(at, 0.0, double(count)));
         };
@@ -123,4 +123,4 @@ void ShadowTiles::mark(uint32_t mover, const std::optional<PixelBox>& box) {
             mMovers[size_t{y} * mAcross + x] |= 1u << mover;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

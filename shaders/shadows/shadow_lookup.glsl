@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Visibility of a light at a point: from maps of static casters and movers, or from a ray.
+// Visibility of a light at a point from maps of static casters and movers.
 #ifndef SHUTTER_SHADOW_LOOKUP_GLSL
 #define SHUTTER_SHADOW_LOOKUP_GLSL
 
 #include "render/scene_bindings.glsl"
-#include "render/shadow_filter.glsl"
-#include "render/shadow_tiles.glsl"
 #include "render/surface.glsl"
+#include "shadows/shadow_filter.glsl"
 
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef {
+    ShadowConstants value;
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowMapTable {
     ShadowMap rows[];
 };
@@ -29,17 +31,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Sh
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTexels {
     float values[];
 };
-
-/// Sources of a point's shadows.
-struct ShadowSource {
-    bool byMaps;   // the frame's maps, where it has any; else `dark`
-    uint dark;     // a bit for each light that does not reach the point
-    uint receiver; // row of the entity table
-    uint movers;   // a bit for each mover whose shadow may reach the point
-};
-
-/// ShadowSource::movers of any point.
-const uint kAllMovers = ~0u;
 
 /// The point that receives light.
 struct Receiver {
@@ -334,35 +325,20 @@ float passMovers(
     return resting * sum / float(count);
 }
 
-/// Visibility of a light at a point, [0, 1], at the raster instant or, for shadows of movers, over
-/// the exposure.
+/// Visibility of a light through the frame's maps, [0, 1], at the raster instant or, for shadows of
+/// movers, over the exposure.
 /// \param index of the light
-/// \param normal of the triangle, unit, on the viewer's side
-/// \param toLight unit
-float lightReaching(
-    FrameRef frame, ShadowSource source, uint index, LightRow light, vec3 position, vec3 normal,
-    vec3 toLight
+/// \param movers a bit for each mover whose shadow may reach the point
+float lightThroughMaps(
+    FrameRef frame, uint index, LightRow light, Receiver receiver, uint movers
 ) {
-    if (index >= kMaxShadowLights) return 1.0f;
-    if (!source.byMaps) return (source.dark >> index & 1u) != 0u ? 0.0f : 1.0f;
-    uvec2 address = frame.value.shadows;
-    if ((address.x | address.y) == 0u) return 1.0f;
-    ShadowRef shadows = ShadowRef(address);
+    ShadowRef shadows = ShadowRef(frame.value.slots[kSlotOcclusion]);
     if (index >= shadows.value.lightCount) return 1.0f;
     ShadowLight own = ShadowLightTable(shadows.value.lights).rows[index];
     if (own.firstMap == kNoShadowMap) return 1.0f;
-    Receiver receiver;
-    receiver.position = position;
-    receiver.toLight = toLight;
-    receiver.normal = dot(normal, toLight) < 0.0f ? -normal : normal;
-    receiver.distance_ = light.kind == kLightDirectional
-                             ? 1.0e15f
-                             : distance(light.positionRange.xyz, position);
-    receiver.pixel = pixelFootprint(frame, position);
-    receiver.entity = source.receiver;
     float passed = passStill(shadows, own, light, receiver);
-    if (passed == 0.0f || source.movers == 0u) return passed;
-    return passed * passMovers(shadows, source.movers, own, light, receiver);
+    if (passed == 0.0f || movers == 0u) return passed;
+    return passed * passMovers(shadows, movers, own, light, receiver);
 }
 
 #endif

@@ -5,14 +5,14 @@
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/extract/frame_view.h"
-#include "engine/extract/shadow_views.h"
 #include "engine/math/math.h"
+#include "modules/shadows/shadow_views.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 
 /// Maximum number of parts of the exposure with separate layers.
 inline constexpr uint32_t kMaxCasterParts = 8;
@@ -33,7 +33,10 @@ struct ShadowCaster {
 /// \param bounds object space, raster instant
 /// \param eye of the camera
 [[nodiscard]] ShadowCaster makeShadowCaster(
-    const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row, const math::dvec3& eye
+    const extract::ExtractedFrame& frame,
+    const extract::SceneLayout& layout,
+    uint32_t row,
+    const math::dvec3& eye
 );
 
 /// A caster at one instant of the exposure.
@@ -51,7 +54,10 @@ struct CasterPath {
 
 /// \param count of instants, above 0
 [[nodiscard]] CasterPath followCaster(
-    const ShadowCaster& caster, const FrameView& view, const ExtractedFrame& frame, uint32_t count
+    const ShadowCaster& caster,
+    const extract::FrameView& view,
+    const extract::ExtractedFrame& frame,
+    uint32_t count
 );
 
 /// A light in casters' space: the direction to it (w 0, unit) or its place (w 1).
@@ -66,4 +72,4 @@ using LightPlace = math::dvec4;
 [[nodiscard]] uint32_t
 countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const LightPlace> lights);
 
-} // namespace shutter::extract
+} // namespace shutter::shadows

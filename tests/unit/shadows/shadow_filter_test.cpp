@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The filters of shadow maps, on views that the engine fits (so not among the tests of
 // tests/erring, which link no library).
-#include "engine/extract/shadow_views.h"
 #include "engine/math/math.h"
-#include "shaders/render/shadow_filter.glsl"
+#include "modules/shadows/shadow_views.h"
+#include "shaders/shadows/shadow_filter.glsl"
 
 #include <gtest/gtest.h>
 
@@ -73,8 +73,8 @@ TEST(ShadowFilter, ASlopePredictsTheDepthsOfAPlaneInASpotsMap) {
     const dvec3 from(0.1, 0.0, 0.2);
     const dvec3 along(1, 0.3, 0);
     const dvec3 across(0, 0.2, 1);
-    const extract::LightView view =
-        extract::fitSpot(light, glm::normalize(dvec3(0.1, -1, 0)), 0.7, 0.01, kSize);
+    const shadows::LightView view =
+        shadows::fitSpot(light, glm::normalize(dvec3(0.1, -1, 0)), 0.7, 0.01, kSize);
     const dvec3 normal = glm::normalize(glm::cross(across, along));
     const vec2 slope = planeSlope(
         vec4(view.clipFromWorld * dvec4(from, 1.0)),
@@ -139,7 +139,7 @@ TEST(ShadowFilter, ACascadeThatHasAPointHasItLiftedToo) {
 }
 
 TEST(ShadowFilter, APlaneSeenFromItsEdgeHasNoSlope) {
-    const extract::LightView spot = extract::fitSpot({0, 5, 0}, {0, -1, 0}, 0.7, 0.01, kSize);
+    const shadows::LightView spot = shadows::fitSpot({0, 5, 0}, {0, -1, 0}, 0.7, 0.01, kSize);
     // Not constant: GLSL copies arrays, C++ does not.
     vec4 run[2] = {vec4(1.0f), vec4(2.0f)};
     for (const float cosine : {0.0f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {

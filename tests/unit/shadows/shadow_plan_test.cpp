@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The maps of a frame's shadows, their views, and their stability.
-#include "engine/extract/shadow_plan.h"
-#include "engine/extract/shadow_views.h"
-#include "shaders/render/shadow_filter.glsl"
+#include "modules/shadows/shadow_plan.h"
+#include "modules/shadows/shadow_views.h"
+#include "shaders/shadows/shadow_filter.glsl"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::shadows {
 namespace {
 
 using math::dvec3;
 using math::dvec4;
 
-class ShadowPlanOfScenes : public Extraction {
+class ShadowPlanOfScenes : public extract::Extraction {
   protected:
     ShadowPlanOfScenes() {
-        request.shadows.mode = ShadowMode::Sharp;
+        settings.mode = ShadowMode::Sharp;
         addSun(glm::angleAxis(-1.2, dvec3(1, 0, 0)));
         addBox(dvec3(0, 0, -9)); // begins 8 metres before the camera
         addBox(dvec3(0, 0, -129));
@@ -42,8 +42,11 @@ class ShadowPlanOfScenes : public Extraction {
     }
 
     ShadowPlan plan() {
-        return planShadows(world, layout, request, FrameView(world, request), extract(), false);
+        const extract::FrameView view(world, request);
+        return planShadows({world, layout, request, view, extract()}, settings);
     }
+
+    ShadowSettings settings;
 
     /// Whether the finest cascade reaches the back of the nearest box.
     bool isNearestInFinest() {
@@ -67,8 +70,8 @@ TEST_F(ShadowPlanOfScenes, CascadesBeginWhereTheSceneDoes) {
 }
 
 TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
-    request.shadows.mode = ShadowMode::Blurred;
-    request.shadows.mapSize = 2048;
+    settings.mode = ShadowMode::Blurred;
+    settings.mapSize = 2048;
     for (const double distance : {4.0, 60.0})
         world.registry.add(
             addBox(math::Transform{.translation = {0, 0, -distance}, .scale = dvec3(0.5)}),
@@ -83,7 +86,7 @@ TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
     // Its sphere's width, 1.7 metres, is 40 pixels at 4 metres.
     EXPECT_EQ(sizeOf(0), 128u);
     EXPECT_EQ(sizeOf(1), 16u);
-    request.shadows.mapSize = 256;
+    settings.mapSize = 256;
     EXPECT_EQ(sizeOf(0), 64u) << "a quarter at most";
 }
 
@@ -91,11 +94,11 @@ TEST_F(ShadowPlanOfScenes, AMoverAroundTheCameraHasTheLargestLayer) {
     addMover(dvec3(0, 0, 0), dvec3(0.2, 0, 0));
     const ShadowPlan found = plan();
     ASSERT_EQ(found.movers.size(), 1u);
-    EXPECT_EQ(found.maps.back().sizePx, request.shadows.mapSize / 4);
+    EXPECT_EQ(found.maps.back().sizePx, settings.mapSize / 4);
 }
 
 TEST_F(ShadowPlanOfScenes, FlatMoversHaveFewerLayersThanACube) {
-    request.shadows.mode = ShadowMode::Blurred;
+    settings.mode = ShadowMode::Blurred;
     for (const dvec3 scale : {dvec3(1.0), dvec3(0.9, 0.9, 0.1)})
         addTurning({.translation = {0, 0, -9}, .scale = scale}, {0, 0, 0.9});
     const ShadowPlan found = plan();
@@ -104,8 +107,8 @@ TEST_F(ShadowPlanOfScenes, FlatMoversHaveFewerLayersThanACube) {
 }
 
 TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightRequires) {
-    request.shadows.mode = ShadowMode::Blurred;
-    request.shadows.mapSize = 4096;
+    settings.mode = ShadowMode::Blurred;
+    settings.mapSize = 4096;
     addTurning({.translation = {2, 0, -40}, .scale = {1.0, 1.0, 0.1}}, {0, 0, 0.8});
     addBox(dvec3(0, -3, 0)); // the scene reaches to the camera
     const auto runInstants = [&] { return plan().movers.at(0).runInstants; };
@@ -119,8 +122,8 @@ TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightRequires) {
 }
 
 TEST_F(ShadowPlanOfScenes, MoversHaveRunsBeforeEachLightThatIsFarAway) {
-    request.shadows.mode = ShadowMode::Blurred;
-    request.shadows.instants = 10;
+    settings.mode = ShadowMode::Blurred;
+    settings.instants = 10;
     addLight(scene::LightKind::Point, {.translation = {0, 30, 0}});
     addSun(glm::angleAxis(-0.7, dvec3(1, 0, 0))); // the moon
     addTurning({.translation = {2, 0, -9}}, {0, 1.0, 0});
@@ -289,4 +292,4 @@ TEST(ShadowViews, ASpotsMapHoldsItsCone) {
 }
 
 } // namespace
-} // namespace shutter::extract
+} // namespace shutter::shadows

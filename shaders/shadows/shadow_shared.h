@@ -8,9 +8,6 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Lights beyond these, in the order of the table of lights, cast no shadows: neither by maps nor
-/// by rays.
-SHUTTER_CONST uint kMaxShadowLights = 16u;
 /// ShadowLight::firstMap of a light that has no maps.
 SHUTTER_CONST uint kNoShadowMap = 0xFFFFFFFFu;
 /// ShadowLight::firstRun of a light that is not far away.
@@ -46,9 +43,6 @@ struct ShadowCascade {
     uint sizePx;
     uint padding0;
 };
-
-/// Width and height of the tiles that list the movers whose shadows may fall into them.
-SHUTTER_CONST uint kShadowTilePx = 32u;
 
 /// Rounding of linear depths; those in perspective are rounded in proportion.
 SHUTTER_CONST float kDepthRounding = 5.0e-7f;
@@ -110,11 +104,10 @@ struct ShadowConstants {
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
     uvec2 runs;     // of CasterSpan[]
-    uvec2 tiles;    // of uint[], a tile of the raster each: see moversOfTile()
     uint lightCount;
     uint moverCount;
     uint instantCount; // 1: shadows as at the raster instant
-    uint tilesAcross;
+    uint padding0;
 };
 
 /// Push constants of the draws into shadow maps.
@@ -136,7 +129,7 @@ static_assert(sizeof(shutter::shader::ShadowLight) == 64);
 static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
 static_assert(sizeof(shutter::shader::CasterSpan) == 144);
-static_assert(sizeof(shutter::shader::ShadowConstants) == 80);
+static_assert(sizeof(shutter::shader::ShadowConstants) == 72);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
 #endif
 
