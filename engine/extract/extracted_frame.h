@@ -100,7 +100,6 @@ struct ViewRequest {
     bool unlit = false; ///< base colour only
     /// Where the scene has an environment: it is seen and lights, in place of the two colours.
     bool environment = true;
-    bool particles = true; ///< those of the world's emitters are shown
     /// What is outside of the picture changes it, as what holds a light back does.
     bool unseenMatters = false;
     uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities

@@ -2,6 +2,7 @@
 #include "engine/extract/swept_scene.h"
 
 #include "engine/extract/frame_view.h"
+#include "engine/extract/raster_record.h"
 
 #include <algorithm>
 #include <cmath>

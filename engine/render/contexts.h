@@ -11,7 +11,7 @@
 #include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
-#include "engine/render/particles.h"
+#include "engine/render/overlay_surfaces.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/world.h"
 
@@ -25,6 +25,8 @@
 #include <vector>
 
 namespace shutter::render {
+
+class Overlay;
 
 /// Name of the measure on request: the largest channel value of a pixel in the linear picture that
 /// is shown.
@@ -102,11 +104,9 @@ struct ExtractContext {
     /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
     /// effect takes it out.
     math::dvec2 colorJitterPx{0.0};
-    bool rasterHasParticles = false; ///< they are drawn into its colour
-    bool hasShading = false;         ///< entities change how others are shaded (ShadingFeature)
-    uint64_t shadingRevision = 0;    ///< Shading::revision
-    /// Particles to draw over the effect's picture (Needs::exposure); null: none.
-    const extract::ParticleTables* particles = nullptr;
+    bool rasterHasOverlays = false; ///< an Overlay is drawn into its colour
+    bool hasShading = false;        ///< entities change how others are shaded (ShadingFeature)
+    uint64_t shadingRevision = 0;   ///< Shading::revision
 };
 
 /// A raster of the world at another time. Its pointers are valid as long as the graph.
@@ -142,9 +142,11 @@ struct PictureContext {
     /// Semaphores of the frame's submission; set by an effect that draws on an image of the window
     /// system.
     gpu::SubmitSemaphores semaphores{};
-    /// Surfaces in front of and behind the particles that are drawn next; set by an effect that
-    /// found them.
-    std::optional<ParticleInstants> particleInstants{};
+    /// Rectangles whose surfaces overlays over the effect's picture read (OverlayLimits): the
+    /// effect that has set Needs::exposure finds them. Empty for the others.
+    std::span<const shader::InstantSurfaces> surfaces{};
+    std::vector<graph::BufferHandle> surfaceWords{}; ///< set by it: OverlaySurfaces::words of each
+    CompositeParts compositeParts{};                 ///< set by it with Needs::movingBlended
 };
 
 /// A frame that the GPU has finished, for one effect.
@@ -165,10 +167,11 @@ struct DecideContext {
     const extract::ViewRequest& view;
     const scene::ExposureMotion& motion; ///< of the view's exposure
     const extract::ExtractedFrame& frame;
+    std::span<Overlay* const> overlays{};
     mutable std::array<std::optional<std::vector<uint32_t>>, 2> found{}; ///< by findTakenRows()
 
-    /// Rows whose blended surfaces leave the raster for an effect with Needs::movingBlended
-    /// (extract::findLayerRows()); searched on the first call.
+    /// Rows whose blended surfaces leave the raster for an effect with Needs::movingBlended, rising
+    /// (Overlay::findRows()); searched on the first call.
     [[nodiscard]] const std::vector<uint32_t>& findTakenRows(bool usesLens) const;
 };
 

@@ -24,10 +24,11 @@ struct Needs {
     /// Blended surfaces that move against what is around them leave the raster
     /// (DecideContext::findTakenRows); it draws them after its own passes.
     core::Decision movingBlended{};
-    /// Its picture shows the whole exposure: particles are drawn over it, with their motion, and
-    /// not into the raster; also where it does not run.
+    /// Its picture shows the whole exposure: overlays are drawn over it, with their motion, and not
+    /// into the raster; also where it does not run.
     core::Decision exposure{};
-    bool usesLens = false; ///< it draws all from many places of the camera's lens
+    OverlayLimits overlays{}; ///< instants and findsInstants, with `exposure`
+    bool usesLens = false;    ///< it draws all from many places of the camera's lens
     /// GBuffer::edgeSurface: colours are then those of one surface, otherwise the mean of all
     /// samples.
     bool edges = false;

@@ -79,8 +79,11 @@ Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view
     return mLongestMotion->take();
 }
 
-core::Result<LongestPath>
-Renderer::measureLongestPath(const scene::World& world, const extract::ViewRequest& view) {
+core::Result<LongestPath> Renderer::measureLongestPath(
+    const scene::World& world,
+    const extract::ViewRequest& view,
+    std::span<const Overlay* const> overlays
+) {
     LongestPath path;
     if (!(view.exposure.open < view.exposure.close))
         return path;
@@ -102,13 +105,13 @@ Renderer::measureLongestPath(const scene::World& world, const extract::ViewReque
         for (const float px : longest.value())
             path.px = std::max(path.px, double{px} * parts.count);
     }
-    const auto particles = extract::extractParticles(
-        world, view, extract::FrameView(world, view), extract::ParticleTime::Exposure
-    );
-    if (!particles)
-        return particles.error();
-    path.px = std::max(path.px, double{particles.value().longestWayPx});
-    path.hasFleeting = particles.value().areFleeting;
+    for (const Overlay* overlay : overlays) {
+        const auto motion = overlay->measureMotion(world, view);
+        if (!motion)
+            return motion.error();
+        path.px = std::max(path.px, motion.value().longestPx);
+        path.hasFleeting = path.hasFleeting || motion.value().isFleeting;
+    }
     return path;
 }
 

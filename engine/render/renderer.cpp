@@ -60,16 +60,9 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
     explainer.decide(ExplainedKind::Work, "blending", surfaces.blending);
 }
 
-core::Decision
-decideParticles(const extract::ParticleTables& particles, const extract::ViewRequest& view) {
-    if (!view.particles)
-        return {false, "the view leaves them out"};
-    if (particles.empty())
-        return {false, "none lives in the picture's time"};
-    const std::string count =
-        core::countOf(particles.rows.size(), "particle lives", "particles live");
-    return {true, count + (particles.isInstant ? " at its instant" : " in its exposure")};
-}
+/// Sample positions in the pixel that edges of overlays have where the picture below is
+/// anti-aliased.
+constexpr uint32_t kEdgeSamples = 4;
 
 /// Name of the intermediate GBuffer::normal.
 constexpr const char* kNormals = "normal";
@@ -77,34 +70,13 @@ constexpr const char* kNormals = "normal";
 /// Reason of the passes that do so.
 constexpr const char* kReadBack = "its picture is read back";
 
-graph::ImageHandle
-declareBlack(graph::Graph& graph, const char* name, uint32_t width, uint32_t height) {
-    struct Data {
-        graph::ImageHandle image;
-    };
-
-    return graph
-        .addPass<Data>(
-            name,
-            graph::PassKind::Raster,
-            [&](graph::PassBuilder& builder, Data& data) {
-                data.image = builder.colorTarget(
-                    graph.createImage(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT}),
-                    graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 1.0f)
-                );
-            },
-            [](const Data&, graph::PassContext&) {}
-        )
-        .image;
-}
-
 } // namespace
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
-    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene),
-      mParticlePass(device, mScene), mPool(device), mDeformation(device, framesInFlight),
-      mFrameTlas(device, framesInFlight), mTimedScene(device, framesInFlight),
-      mSecondRaster(device, framesInFlight), mLastRaster(device, framesInFlight) {
+    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device),
+      mDeformation(device, framesInFlight), mFrameTlas(device, framesInFlight),
+      mTimedScene(device, framesInFlight), mSecondRaster(device, framesInFlight),
+      mLastRaster(device, framesInFlight) {
     SHUTTER_CHECK(
         framesInFlight >= 1 && framesInFlight <= gpu::kMaxFramesInFlight,
         "{} frames in flight",
@@ -135,55 +107,45 @@ VkDeviceAddress Renderer::declareTlas(
     return levels.movingTlas;
 }
 
-core::Result<extract::ParticleTables> Renderer::extractParticles(
-    const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
+core::Result<FrameOverlays> Renderer::extractOverlays(
+    const ExtractContext& context, std::span<Overlay* const> overlays, const RunningEffects& running
 ) const {
-    // Frames that measure motion draw no particles, and effects store no history of pictures with
-    // particles.
-    if (request.measuresMotion || (running.particles.run && !request.wantPicture))
-        return extract::ParticleTables{};
-    return extract::extractParticles(
-        context.world,
-        request.view,
-        mExtractor.view(),
-        running.particles.run ? extract::ParticleTime::Exposure : extract::ParticleTime::Instant
-    );
+    FrameOverlays extracted;
+    const bool isOver = running.exposure.run;
+    // Effects store no history of pictures with overlays.
+    if (isOver && !context.facts.pictureWanted)
+        return extracted;
+    OverlayExtract source{
+        .world = context.world,
+        .layout = mScene.layout(),
+        .view = context.view,
+        .frameView = mExtractor.view(),
+        .frame = context.frame,
+        .takenRows = context.takenRows,
+        .isOverExposure = isOver,
+        .jitterPx = context.colorJitterPx,
+        .limits = running.limits,
+        .slot = context.slot};
+    source.limits.surfaceBytes = mDevice.limits().maxStorageBufferRange;
+    if (context.view.jitterPx != context.colorJitterPx)
+        source.limits.leastInstants = kEdgeSamples;
+    SHUTTER_TRY(extracted.extract(overlays, source));
+    return extracted;
 }
 
-graph::ImageHandle Renderer::declareParticles(
-    const FrameParts& parts,
-    const DeclaredScene& scene,
-    graph::ImageHandle color,
-    const math::dvec2& jitterPx,
-    const std::optional<ParticleInstants>& instants
-) {
-    return mParticlePass.declare(
-        parts.graph,
-        parts.particles,
-        parts.slot.particles,
-        {.color = color,
-         .motionDepth = scene.gbuffer.motionDepth,
-         .frameConstants = scene.tables.constants,
-         .response = scene.tables.response,
-         .jitterPx = jitterPx,
-         .instants = instants}
-    );
-}
-
-void Renderer::publishParticles(
-    const FrameParts& parts, const DeclaredScene& scene, Intermediates& intermediates
-) {
-    constexpr const char* kName = "particles";
-    if (!intermediates.isWanted(kName) || parts.particles.empty())
-        return;
-    const extract::ViewRequest& view = parts.request.view;
-    const auto& jitterPx = parts.running.particles.run ? parts.particleJitterPx : view.jitterPx;
-    parts.explainer.declareOwned(parts.graph, PassOwner::Display, "particles are shown alone", [&] {
-        const auto black = declareBlack(parts.graph, "black", view.width, view.height);
-        // Without instants: they bring the picture that lies behind.
-        const auto alone = declareParticles(parts, scene, black, jitterPx, std::nullopt);
-        intermediates.publish(kName, alone);
-    });
+OverlayContext
+Renderer::makeOverlayContext(const FrameParts& parts, const DeclaredScene& scene, uint32_t slot) {
+    return {
+        .graph = parts.graph,
+        .view = parts.request.view,
+        .frame = parts.frame,
+        .shapes = scene.shapes,
+        .motionDepth = scene.gbuffer.motionDepth,
+        .shading = scene.rays.shading,
+        .frameConstants = scene.tables.constants,
+        .response = scene.tables.response,
+        .jitterPx = parts.overlayJitterPx,
+        .slot = slot};
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -258,7 +220,9 @@ core::Status Renderer::submitFrame(
         .slot = pending.slot,
         .colorJitterPx = request.view.jitterPx};
     RunningEffects running = joinNeeds(
-        {facts, world, mScene.layout(), request.view, context.motion, frame}, effects, explainer
+        {facts, world, mScene.layout(), request.view, context.motion, frame, features.overlays},
+        effects,
+        explainer
     );
     context.takenRows = running.takenRows;
     if (running.samplesEdges && facts.isDefocused)
@@ -294,19 +258,25 @@ core::Status Renderer::submitFrame(
         return shading.error();
     context.hasShading = !shading.value().running.empty();
     context.shadingRevision = shading.value().revision;
-    const auto particles = extractParticles(context, request, running);
-    if (!particles)
-        return particles.error();
     if (request.wantReasons) {
         explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
         for (const Explanation& one : shading.value().explanations)
             explainer.decide(one.kind, one.subject, one.decision);
-        explainer.decide(
-            ExplainedKind::Work, "particles", decideParticles(particles.value(), request.view)
-        );
     }
-    context.rasterHasParticles = !running.particles.run && !particles.value().empty();
-    SHUTTER_TRY(extractForEffects(context, particles.value(), running, features.shading));
+    core::Result<FrameOverlays> overlays = FrameOverlays();
+    if (!running.exposure.run) {
+        overlays = extractOverlays(context, features.overlays, running);
+        context.rasterHasOverlays = overlays && !overlays.value().empty();
+    }
+    SHUTTER_TRY(extractForEffects(context, running, features.shading));
+    if (running.exposure.run) // the colour's jitter is known
+        overlays = extractOverlays(context, features.overlays, running);
+    if (!overlays)
+        return overlays.error();
+    if (request.wantReasons)
+        for (const Explanation& one : overlays.value().explanations())
+            explainer.decide(one.kind, one.subject, one.decision);
+    overlays.value().count(statistics.counters);
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -318,8 +288,8 @@ core::Status Renderer::submitFrame(
          frame,
          shading.value(),
          moving ? &*moving : nullptr,
-         particles.value(),
-         context.colorJitterPx,
+         overlays.value(),
+         running.exposure.run ? context.colorJitterPx : request.view.jitterPx,
          running,
          explainer}
     );
@@ -486,10 +456,11 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
              readsNormals,
              running.confusion}
         );
-        if (!running.particles.run && !parts.particles.empty())
-            scene.gbuffer.color = declareParticles(
-                parts, scene, scene.gbuffer.color, request.view.jitterPx, std::nullopt
-            );
+        if (!running.exposure.run && !parts.overlays.empty()) {
+            OverlayContext context = makeOverlayContext(parts, scene, mNextSlot);
+            context.color = scene.gbuffer.color;
+            scene.gbuffer.color = parts.overlays.declare(context, false, {}, parts.explainer);
+        }
     });
     return scene;
 }
@@ -510,17 +481,21 @@ void Renderer::declareEffects(
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;
-    const auto declareOwnParticles = [&](size_t effectsBefore) {
-        if (!running.particles.run || parts.particles.empty() ||
-            running.particlesAt != effectsBefore)
-            return;
-        parts.explainer.declareOwned(graph, PassOwner::Blur, running.particles.reason, [&] {
-            context.color = declareParticles(
-                parts, scene, context.color, parts.particleJitterPx, context.particleInstants
-            );
-        });
+    const auto declareOverlays = [&](bool areTaken) {
+        OverlayContext over = makeOverlayContext(parts, scene, context.slot);
+        over.color = context.color;
+        if (context.compositeParts)
+            over.composite = &context.compositeParts;
+        context.color =
+            parts.overlays.declare(over, areTaken, context.surfaceWords, parts.explainer);
     };
-    declareOwnParticles(0);
+    const auto declareOverEffects = [&](size_t effectsBefore) {
+        if (running.exposure.run && running.overlaysAt == effectsBefore)
+            parts.explainer.declareOwned(graph, PassOwner::Blur, running.exposure.reason, [&] {
+                declareOverlays(false);
+            });
+    };
+    declareOverEffects(0);
     for (RunningEffect& one : running.effects) {
         // Not counted as the effect's own: the cost of an occasional frame does not predict later
         // frames, which the budget is for.
@@ -532,11 +507,21 @@ void Renderer::declareEffects(
                 declareOther(mSecondRaster, "second G-buffer", *one.effect, running.secondRaster);
         context.secondRaster = one.readsSecondRaster ? &*second : nullptr;
         context.lastRaster = one.readsLastRaster ? &*last : nullptr;
+        context.surfaces = {};
+        if (one.isBelowOverlays)
+            context.surfaces = parts.overlays.surfaces();
         parts.explainer.declareOwned(graph, one.effect->owner(), one.effect->name() + " runs", [&] {
             one.effect->declare(context);
+            SHUTTER_CHECK(
+                !one.isBelowOverlays || context.surfaceWords.size() == context.surfaces.size(),
+                "{} finds the surfaces that overlays read",
+                one.effect->name()
+            );
+            if (one.isBelowOverlays)
+                declareOverlays(true);
         });
         one.endPass = graph.passes().size();
-        declareOwnParticles(static_cast<size_t>(&one - running.effects.data()) + 1);
+        declareOverEffects(static_cast<size_t>(&one - running.effects.data()) + 1);
     }
 }
 
@@ -550,7 +535,9 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
     Intermediates intermediates(std::move(wanted));
     publishGBuffer(scene.gbuffer, intermediates);
-    publishParticles(parts, scene, intermediates);
+    parts.overlays.publishAlone(
+        makeOverlayContext(parts, scene, mNextSlot), intermediates, parts.explainer
+    );
     PictureContext context{
         .graph = graph,
         .view = request.view,

@@ -12,12 +12,12 @@
 #include "engine/rays/timed_scene.h"
 #include "engine/rays/tlas.h"
 #include "engine/render/effect.h"
+#include "engine/render/frame_overlays.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/longest_motion.h"
 #include "engine/render/other_raster.h"
-#include "engine/render/particles.h"
 #include "engine/render/pass_trace.h"
 #include "engine/render/per_slot.h"
 #include "engine/render/readback.h"
@@ -66,6 +66,7 @@ struct FrameRequest {
 /// What a frame is drawn with, in order.
 struct FeatureSet {
     std::span<ShadingFeature* const> shading{};
+    std::span<Overlay* const> overlays{};
     std::span<Effect* const> effects{};
 };
 
@@ -84,7 +85,7 @@ struct LongestPath {
     /// visible; pixels. 0: nothing moves.
     double px = 0.0;
     bool movesLight = false;  ///< one that lights the picture does
-    bool hasFleeting = false; ///< particles come, go or change their colour
+    bool hasFleeting = false; ///< something appears, disappears or changes its colour
 };
 
 /// Draws frames of one world's assets; features are the caller's. Frames are submitted and finished
@@ -122,8 +123,11 @@ class Renderer {
     /// Measures the motion of the picture's points in the exposure. Measured on raster images, one
     /// for each part of the exposure (extract::planMotionParts); nothing is drawn where nothing
     /// moves.
-    [[nodiscard]] core::Result<LongestPath>
-    measureLongestPath(const scene::World& world, const extract::ViewRequest& view);
+    [[nodiscard]] core::Result<LongestPath> measureLongestPath(
+        const scene::World& world,
+        const extract::ViewRequest& view,
+        std::span<const Overlay* const> overlays
+    );
 
     [[nodiscard]] const gpu_scene::GpuScene& scene() const { return mScene; }
 
@@ -140,6 +144,7 @@ class Renderer {
         Effect* effect = nullptr;
         bool readsSecondRaster = false;
         bool readsLastRaster = false;
+        bool isBelowOverlays = false;
         size_t firstPass = 0; ///< its own passes: indices into Graph::passes()
         size_t endPass = 0;
     };
@@ -159,8 +164,10 @@ class Renderer {
         bool readsNormals = false;       ///< Needs::normals likewise
         /// GBufferPass::Source::confusion.
         math::vec2 confusion{0.0f};
-        core::Decision particles; ///< run: they are drawn with their motion over the exposure
-        size_t particlesAt = 0;   ///< of the effects: particles are drawn after as many of them
+        /// Needs::exposure; run: overlays are drawn after as many of the effects as overlaysAt.
+        core::Decision exposure;
+        size_t overlaysAt = 0;
+        OverlayLimits limits; ///< of the effect below them, if that runs
     };
 
     /// The extracted frame, and the view that it was drawn for.
@@ -172,13 +179,11 @@ class Renderer {
 
     /// Resources of one frame in flight.
     struct Slot {
-        explicit Slot(gpu::Device& device)
-            : frame(device), readback(device), tables(device), particles(device) {}
+        explicit Slot(gpu::Device& device) : frame(device), readback(device), tables(device) {}
 
         gpu::Frame frame;
         Readback readback;
         FrameTables tables;
-        ParticleBuffer particles;
     };
 
     /// Inputs of declaring a frame.
@@ -190,8 +195,8 @@ class Renderer {
         const extract::ExtractedFrame& frame;
         const RasterShading& shading;       ///< of the own raster
         const extract::TimedTables* moving; ///< null: no time-sampled rays
-        const extract::ParticleTables& particles;
-        math::dvec2 particleJitterPx; ///< of the colour that they are drawn on after effects
+        const FrameOverlays& overlays;
+        math::dvec2 overlayJitterPx; ///< of the colour that they are drawn on
         RunningEffects& running;
         Explainer& explainer;
     };
@@ -238,26 +243,17 @@ class Renderer {
     /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
         ExtractContext& context,
-        const extract::ParticleTables& particles,
         const RunningEffects& running,
         std::span<ShadingFeature* const> shading
     );
-    /// Extracts the particles that the frame draws.
-    [[nodiscard]] core::Result<extract::ParticleTables> extractParticles(
-        const ExtractContext& context, const FrameRequest& request, const RunningEffects& running
+    /// Extracts the overlays that the frame draws.
+    [[nodiscard]] core::Result<FrameOverlays> extractOverlays(
+        const ExtractContext& context,
+        std::span<Overlay* const> overlays,
+        const RunningEffects& running
     ) const;
-    /// \return the picture with the frame's particles
-    graph::ImageHandle declareParticles(
-        const FrameParts& parts,
-        const DeclaredScene& scene,
-        graph::ImageHandle color,
-        const math::dvec2& jitterPx,
-        const std::optional<ParticleInstants>& instants
-    );
-    /// Draws them once more, alone, where that is wanted. The raster's depth hides them.
-    void publishParticles(
-        const FrameParts& parts, const DeclaredScene& scene, Intermediates& intermediates
-    );
+    static OverlayContext
+    makeOverlayContext(const FrameParts& parts, const DeclaredScene& scene, uint32_t slot);
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.
     DeclaredScene declareScene(const FrameParts& parts);
@@ -281,7 +277,6 @@ class Renderer {
     gpu::Device& mDevice;
     gpu_scene::GpuScene mScene;
     GBufferPass mGBufferPass;
-    ParticlePass mParticlePass;
     graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
     extract::FrameExtractor mExtractor;
     bool mWasDefocused = false;                ///< the last frame

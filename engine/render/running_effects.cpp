@@ -2,9 +2,12 @@
 // Joins the requests of a frame's effects, and frees resources that none requested for a while.
 #include "engine/core/check.h"
 #include "engine/core/words.h"
-#include "engine/extract/blended_layer.h"
 #include "engine/extract/raster_record.h"
 #include "engine/render/renderer.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace shutter::render {
 
@@ -34,8 +37,17 @@ describeLayer(const std::vector<uint32_t>& rows, const extract::SceneLayout& lay
 
 const std::vector<uint32_t>& DecideContext::findTakenRows(bool usesLens) const {
     std::optional<std::vector<uint32_t>>& taken = found[usesLens ? 1 : 0];
-    if (!taken)
-        taken = extract::findLayerRows(world, layout, view, motion, frame, usesLens);
+    if (taken)
+        return *taken;
+    taken.emplace();
+    for (const Overlay* overlay : overlays) {
+        const std::vector<uint32_t> own = overlay->findRows(*this, usesLens);
+        std::vector<uint32_t> all;
+        std::set_union(
+            taken->begin(), taken->end(), own.begin(), own.end(), std::back_inserter(all)
+        );
+        *taken = std::move(all);
+    }
     return *taken;
 }
 
@@ -56,9 +68,9 @@ Renderer::RunningEffects Renderer::joinNeeds(
         if (needs.run.run && needs.timedRays.run && !facts.deviceHasRayQuery)
             needs.run = {false, "it needs ray queries, which the device lacks"};
         explainer.decide(ExplainedKind::Effect, effect->name(), needs.run);
-        join(running.particles, effect->name(), needs.exposure);
+        join(running.exposure, effect->name(), needs.exposure);
         if (needs.exposure.run)
-            running.particlesAt = running.effects.size() + (needs.run.run ? 1 : 0);
+            running.overlaysAt = running.effects.size() + (needs.run.run ? 1 : 0);
         if (!needs.run.run)
             continue;
         if (!running.layer.run && needs.movingBlended.run) {
@@ -66,7 +78,13 @@ Renderer::RunningEffects Renderer::joinNeeds(
             needs.movingBlended = describeLayer(running.takenRows, context.layout);
         }
         join(running.layer, effect->name(), needs.movingBlended);
-        running.effects.push_back({effect, needs.secondRaster.run, needs.lastRaster.run});
+        if (needs.exposure.run) {
+            running.limits = needs.overlays;
+            running.limits.hasLens = needs.usesLens;
+        }
+        running.effects.push_back(
+            {effect, needs.secondRaster.run, needs.lastRaster.run, needs.exposure.run}
+        );
         running.readsEdges = running.readsEdges || needs.edges;
         running.readsNormals = running.readsNormals || needs.normals;
         running.mayTrace = running.mayTrace || !needs.rays.reason.empty();
@@ -79,10 +97,7 @@ Renderer::RunningEffects Renderer::joinNeeds(
 }
 
 core::Status Renderer::extractForEffects(
-    ExtractContext& context,
-    const extract::ParticleTables& particles,
-    const RunningEffects& running,
-    std::span<ShadingFeature* const> shading
+    ExtractContext& context, const RunningEffects& running, std::span<ShadingFeature* const> shading
 ) {
     const extract::SceneLayout& layout = mScene.layout();
     const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, running.takenRows);
@@ -108,10 +123,7 @@ core::Status Renderer::extractForEffects(
                             {shading, hidden, RasterKind::Last, context.slot}
                         ));
     }
-    for (size_t i = 0; i < running.effects.size(); ++i) {
-        const RunningEffect& one = running.effects[i];
-        const bool hasParticles = running.particles.run && running.particlesAt == i + 1;
-        context.particles = hasParticles ? &particles : nullptr;
+    for (const RunningEffect& one : running.effects) {
         context.secondRaster.reset();
         context.lastRaster.reset();
         if (one.readsSecondRaster)

@@ -100,12 +100,6 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wa
     picture.frame.wantColor = wantLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&mTonemap};
-    if (const auto step = drawer.options.maxStepPx) {
-        const auto path = mRenderer.measureLongestPath(mSource.world(), picture.frame.view);
-        if (!path)
-            return path.error();
-        picture.instants = game::chooseInstants(path.value(), *step, drawer.options.samples);
-    }
     return drawer.drawer->draw(mSource.world(), picture);
 }
 

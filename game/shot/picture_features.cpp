@@ -4,14 +4,16 @@
 namespace shutter::game {
 
 PictureFeatures::PictureFeatures(gpu::Device& device, const gpu_scene::GpuScene& scene)
-    : mShadows(device, scene), mShading{&mShadows} {}
+    : mShadows(device, scene), mGlass(device, scene),
+      mParticles(device, scene), mShading{&mShadows}, mOverlays{&mGlass, &mParticles} {}
 
 void PictureFeatures::configure(const FeatureSettings& settings) {
     mShadows.configure(settings.shadows);
+    mParticles.configure(settings.particles);
 }
 
 render::FeatureSet PictureFeatures::listWith(const std::vector<render::Effect*>& effects) const {
-    return {.shading = mShading, .effects = effects};
+    return {.shading = mShading, .overlays = mOverlays, .effects = effects};
 }
 
 } // namespace shutter::game

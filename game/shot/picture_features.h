@@ -5,6 +5,8 @@
 #include "engine/gpu/device.h"
 #include "engine/render/renderer.h"
 #include "game/shot/picture_settings.h"
+#include "modules/glass/glass.h"
+#include "modules/particles/particles.h"
 #include "modules/shadows/shadows.h"
 
 #include <vector>
@@ -25,7 +27,10 @@ class PictureFeatures {
 
   private:
     shadows::Shadows mShadows;
+    glass::Glass mGlass;
+    particles::Particles mParticles;
     std::vector<render::ShadingFeature*> mShading;
+    std::vector<render::Overlay*> mOverlays; ///< in the order in which they are drawn
 };
 
 } // namespace shutter::game

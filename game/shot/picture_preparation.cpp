@@ -134,7 +134,9 @@ core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRe
     SHUTTER_CHECK(!request.frame.view.usesLens, "a step by motion knows nothing of a lens");
     if (!request.instants) {
         finishUntil(0); // measuring draws additional frames
-        const auto path = mRenderer.measureLongestPath(world, request.frame.view);
+        const auto path = mRenderer.measureLongestPath(
+            world, request.frame.view, mFeatures.listWith({}).overlays
+        );
         if (!path)
             return path.error();
         request.instants =

@@ -36,7 +36,7 @@ core::SettingRows<PictureSettings> listPictureRows() {
     using S = PictureSettings;
     static constexpr std::string_view kAntiAliasings[] = {"none", "taa", "box"};
     static constexpr std::string_view kFits[] = {"whole", "height"};
-    static const std::array<core::SettingRow<S>, 3> kRows = {{
+    static const std::array<core::SettingRow<S>, 2> kRows = {{
         {"frameFit",
          core::makeWordField<&S::frameFit>(kFits),
          "",
@@ -53,13 +53,6 @@ core::SettingRows<PictureSettings> listPictureRows() {
          "times as long.",
          "Smooth edges",
          "--aa"},
-        {"particles",
-         &S::particles,
-         "",
-         {},
-         "Sparks, dust, smoke and other particles of the scene.",
-         "Particles",
-         "--particles"},
     }};
     return kRows;
 }

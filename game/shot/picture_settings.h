@@ -7,6 +7,7 @@
 #include "engine/core/setting_row.h"
 #include "engine/extract/extracted_frame.h"
 #include "modules/bloom/bloom.h"
+#include "modules/particles/particle_settings.h"
 #include "modules/shadows/shadow_settings.h"
 #include "modules/tonemap/tonemap.h"
 
@@ -26,6 +27,7 @@ enum class AntiAliasing : uint8_t {
 /// Of features that take part in a picture besides its effects (picture_features.h).
 struct FeatureSettings {
     shadows::ShadowSettings shadows{};
+    particles::ParticleSettings particles{};
 };
 
 /// Calls `visit(rows, part)` for each group of rows; `part(settings)` is the struct that the rows
@@ -33,6 +35,9 @@ struct FeatureSettings {
 template <class Visit> void visitFeatureRows(const Visit& visit) {
     visit(
         shadows::listShadowRows(), [](auto& settings) -> auto& { return settings.shadows; }
+    );
+    visit(
+        particles::listParticleRows(), [](auto& settings) -> auto& { return settings.particles; }
     );
 }
 
@@ -44,7 +49,6 @@ template <class Visit> void visitFeatureRows(const Visit& visit) {
 struct PictureSettings {
     AntiAliasing antiAliasing = AntiAliasing::None;
     extract::FrameFit frameFit = extract::FrameFit::Whole;
-    bool particles = true; ///< extract::ViewRequest::particles
     FeatureSettings features{};
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};

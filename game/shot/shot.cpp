@@ -262,7 +262,6 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.background = options.background;
     view.ambient = options.ambient;
     view.unlit = options.unlit;
-    view.particles = options.picture.particles;
     view.unseenMatters = unseenMatters(options.picture.features);
     return view;
 }

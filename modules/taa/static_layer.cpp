@@ -34,7 +34,7 @@ bool hasSameBytes(std::span<const shader::LightRow> a, std::span<const shader::L
 bool hasPassers(const render::ExtractContext& context, const std::vector<bool>& rests) {
     const extract::ExtractedFrame& frame = context.frame;
     const auto& blended = frame.blended.moving;
-    return context.rasterHasParticles ||
+    return context.rasterHasOverlays ||
            std::any_of(blended.begin(), blended.end(), [&](const extract::DrawItem& item) {
                return !rests[item.entity] && !extract::isTaken(context.takenRows, item.entity);
            });

@@ -2,9 +2,9 @@
 // The motion blur on raw handles: pictures by either interface equal the plugin's, bit for bit if
 // the host gives motion at the method's instants, or hands in the engine's own layer of blended
 // surfaces; and frames in flight that change their size.
-#include "engine/extract/blended_layer.h"
 #include "engine/image/metrics.h"
-#include "engine/render/blended_layer.h"
+#include "modules/glass/blended_layer.h"
+#include "modules/glass/blended_layer_pass.h"
 #include "tests/gpu/gbuffer_host.h"
 
 #include <algorithm>
@@ -352,13 +352,13 @@ class EmbeddedLayer : public test::StagedTest {
         MotionDescriber describer(settings.sampleCount);
         if (settings.method->readsInstantMotions)
             stage.declareMotion(describer);
-        render::BlendedLayerPass pass(device(), stage.renderer.scene());
-        extract::BlendedLayer layer;
+        glass::BlendedLayerPass pass(device(), stage.renderer.scene());
+        glass::BlendedLayer layer;
         stage.host.changeInputs = [&](const render::PictureContext& context, HostInputs&) {
             layer = plan(scene, stage, settings, context);
             ASSERT_FALSE(layer.empty());
             ASSERT_FALSE(layer.readsInstants) << "the host has one part";
-            const render::BlendedPart drawn = pass.declare(context, layer, {}, 0);
+            const render::OverlayPart drawn = pass.declare(overlayContextOf(context), layer, {}, 0);
             context.intermediates.publish("layer color", drawn.color);
             context.intermediates.publish("layer opacity", drawn.opacity);
         };
@@ -381,19 +381,31 @@ class EmbeddedLayer : public test::StagedTest {
         expectSame(stage.draw());
     }
 
-    static extract::BlendedLayer plan(
+    static render::OverlayContext overlayContextOf(const render::PictureContext& context) {
+        return {
+            .graph = context.graph,
+            .view = context.view,
+            .frame = context.frame,
+            .shapes = context.shapes,
+            .motionDepth = context.gbuffer.motionDepth,
+            .shading = context.shading,
+            .frameConstants = context.frameConstants,
+            .slot = context.slot};
+    }
+
+    static glass::BlendedLayer plan(
         const test::SceneBuilder& scene,
         const test::BlurStage& stage,
         const MotionBlurSettings& settings,
         const render::PictureContext& context
     ) {
         const scene::ExposureMotion motion(scene.world, context.view.camera, context.view.exposure);
-        extract::LayerLimits limits;
+        render::OverlayLimits limits;
         if (settings.method->sampleUnit == motion_blur::SampleUnit::Instants)
             limits.instants = settings.sampleCount;
         limits.findsInstants = settings.method->readsInstantMotions;
         limits.surfaceBytes = device().limits().maxStorageBufferRange;
-        return extract::planBlendedLayer(
+        return glass::planBlendedLayer(
             scene.world,
             stage.renderer.scene().layout(),
             context.view,
@@ -406,7 +418,7 @@ class EmbeddedLayer : public test::StagedTest {
 
     /// The picture's size, opacity in alpha.
     const HostTexels& makeLayer(
-        const extract::BlendedLayer& layer, const image::Image& color, const image::Image& opacity
+        const glass::BlendedLayer& layer, const image::Image& color, const image::Image& opacity
     ) {
         std::vector<uint64_t> texels(size_t{test::kStageSize.x} * test::kStageSize.y, 0);
         for (uint32_t y = 0; y < layer.sizePx.y; ++y)

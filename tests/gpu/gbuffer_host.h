@@ -8,6 +8,7 @@
 #include "engine/render/renderer.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
+#include "game/shot/picture_features.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/gpu/embedding_host.h"
 #include "tests/kit/scene_builder.h"
@@ -331,8 +332,9 @@ class BlurStage {
     }
 
     StagedFrame draw() {
-        const std::array<render::Effect*, 2> effects{&host, &mPlugin};
-        auto drawn = renderer.renderFrame(mScene.world, makeRequest(), {.effects = effects});
+        auto drawn = renderer.renderFrame(
+            mScene.world, makeRequest(), mFeatures.listWith(mEffects)
+        );
         EXPECT_TRUE(drawn.ok()) << drawn.error().message;
         StagedFrame frame{std::move(drawn).value(), host.output.read(), host.inPlace.read(), {}};
         if (host.blurOfC)
@@ -366,7 +368,7 @@ class BlurStage {
     )
         : renderer(device, scene.world.assets), blur(findBlur(renderer)),
           host(device, *blur, hosts, kStageSize), mScene(scene),
-          mPlugin(device, renderer.scene(), plugins) {
+          mPlugin(device, renderer.scene(), plugins), mFeatures(device, renderer.scene()) {
         shutter.exposureSeconds = 0.5;
         request.view.camera = scene.camera;
         request.view.width = kStageSize.x;
@@ -391,6 +393,8 @@ class BlurStage {
 
     SceneBuilder& mScene;
     motion_blur::MotionBlurPlugin mPlugin;
+    game::PictureFeatures mFeatures;
+    std::vector<render::Effect*> mEffects{&host, &mPlugin};
 };
 
 /// Stages whose blurs of either interface the tests of a suite share.

@@ -6,6 +6,7 @@
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
 #include "engine/scene/particle_emitter.h"
+#include "game/shot/picture_features.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/image/laws.h"
 #include "tests/support/deformed_meshes.h"
@@ -580,7 +581,8 @@ Sequence drawSequence(gpu::Device& device, const std::string& method, uint32_t f
     motion_blur::MotionBlurPlugin blur(
         device, renderer.scene(), {.method = &motion_blur::getMethod(method)}
     );
-    std::array<render::Effect*, 1> effects{&blur};
+    const std::vector<render::Effect*> effects{&blur};
+    const game::PictureFeatures features(device, renderer.scene());
     Sequence sequence;
     const auto finish = [&] {
         render::FrameResult result = renderer.finishFrame();
@@ -604,7 +606,7 @@ Sequence drawSequence(gpu::Device& device, const std::string& method, uint32_t f
         // The picture changes its size on the way.
         request.view.width = i < 5 ? 96 : 80;
         request.view.height = 64;
-        EXPECT_TRUE(renderer.submitFrame(world, request, {.effects = effects}).ok());
+        EXPECT_TRUE(renderer.submitFrame(world, request, features.listWith(effects)).ok());
     }
     while (renderer.unfinishedCount() > 0)
         finish();

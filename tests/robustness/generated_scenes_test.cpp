@@ -2,12 +2,12 @@
 // The scenes that the game makes for itself go through the loader as any other file does.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scaling_scenes.h"
-#include "engine/extract/particles.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
 #include "engine/scene/shutter.h"
+#include "modules/particles/particle_tables.h"
 #include "tests/support/outcomes.h"
 
 #include <fmt/format.h>
@@ -92,11 +92,11 @@ float measureParticles(const scene::World& world, ecs::Entity camera, const Benc
     view.exposure = scene::computeExposure(shutter, hardCase.timeSeconds, hardCase.exposureSeconds);
     view.width = static_cast<uint32_t>(kCaseSizePx.x);
     view.height = static_cast<uint32_t>(kCaseSizePx.y);
-    const auto particles = extract::extractParticles(
-        world, view, extract::FrameView(world, view), extract::ParticleTime::Exposure
+    const auto tables = particles::extractParticles(
+        world, view, extract::FrameView(world, view), particles::ParticleTime::Exposure
     );
-    EXPECT_TRUE(particles.ok());
-    return particles ? particles.value().longestWayPx : 0.0f;
+    EXPECT_TRUE(tables.ok());
+    return tables ? tables.value().longestWayPx : 0.0f;
 }
 
 /// Particles that live during the exposure, at least and at most, where a case's name promises it.

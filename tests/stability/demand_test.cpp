@@ -226,7 +226,7 @@ TEST_F(Demand, ParticlesThatTheViewLeavesOutHaveNoPassNoImageAndNoBuffer) {
     const auto draw = [&](bool hasParticles) {
         return Frames(device(), scene)
             .draw(makeFrame("resolved"), [&](game::PictureRequest& request) {
-                request.frame.view.particles = hasParticles;
+                request.features.particles.areShown = hasParticles;
                 request.frame.intermediates = {"particles"};
             });
     };

@@ -74,7 +74,6 @@ class DemoSource : public SequenceSource {
         view.background = appearance.background;
         view.ambient = appearance.ambient;
         view.unlit = mOptions.unlit;
-        view.particles = mOptions.picture.particles;
         view.unseenMatters = game::unseenMatters(mOptions.picture.features);
         return view;
     }

@@ -53,7 +53,7 @@ void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
     if (input.wasPressed(Key::Digit9))
         picture.bloom.share = picture.bloom.share > 0.0f ? 0.0f : makePlayPicture().bloom.share;
     if (input.wasPressed(Key::Digit0))
-        picture.particles = !picture.particles;
+        picture.features.particles.areShown = !picture.features.particles.areShown;
 }
 
 } // namespace

@@ -87,9 +87,8 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
     return a.view.camera == b.view.camera && a.view.width == b.view.width &&
            a.view.height == b.view.height && a.view.background == b.view.background &&
            a.view.ambient == b.view.ambient && a.view.environment == b.view.environment &&
-           a.view.particles == b.view.particles && areEqual(a.features, b.features) &&
-           first.open == second.open && first.raster == second.raster &&
-           first.close == second.close &&
+           areEqual(a.features, b.features) && first.open == second.open &&
+           first.raster == second.raster && first.close == second.close &&
            core::areEqual(scene::listShutterRows(), first.shutter, second.shutter) &&
            core::areEqual(
                scene::listResponseRows(), first.shutter.response, second.shutter.response

@@ -625,7 +625,6 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx, const PlaySettings&
     picture.view.background = appearance.background;
     picture.view.ambient = appearance.ambient;
     picture.view.environment = settings.environment;
-    picture.view.particles = settings.picture.particles;
     picture.view.unseenMatters = unseenMatters(settings.picture.features);
     picture.window.size = sizePx;
     const bool isBare = mFiles.wantsPhoto() || (mFiles.isFilming() && !mOptions.filmsHud);

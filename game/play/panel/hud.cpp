@@ -356,7 +356,7 @@ std::string describeEffects(const PlaySettings& settings) {
         add("sky");
     if (picture.bloom.share > 0.0f)
         add("bloom");
-    if (picture.particles)
+    if (picture.features.particles.areShown)
         add("particles");
     return text;
 }

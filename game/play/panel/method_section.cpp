@@ -208,12 +208,12 @@ void drawEffectSection(PlaySettings& settings) {
         settings.picture.antiAliasing = effects.antiAliasing;
         settings.picture.features.shadows.mode = effects.features.shadows.mode;
         settings.picture.bloom.share = effects.bloom.share;
-        settings.picture.particles = effects.particles;
+        settings.picture.features.particles = effects.features.particles;
     };
     if (buttons.add("All", "All effects besides the blur, as a new player has them."))
         set(kFresh.environment, kFresh.picture);
     if (buttons.add("None", "No effect besides the blur."))
-        set(false, PictureSettings{.particles = false});
+        set(false, PictureSettings{.features = {.particles = {.areShown = false}}});
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

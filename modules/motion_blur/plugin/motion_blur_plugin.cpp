@@ -64,7 +64,7 @@ MotionBlurPlugin::MotionBlurPlugin(
     const BlurBudget& budget
 )
     : mWanted(settings), mBudget(budget, settings), mInstantMotions(device, scene),
-      mBlended(device, scene), mEffect(device, scene.textureLayout()) {}
+      mComposite(device), mEffect(device, scene.textureLayout()) {}
 
 void MotionBlurPlugin::configure(
     const MotionBlurSettings& settings, const BlurBudget& budget, UntilReady untilReady
@@ -147,7 +147,10 @@ render::Needs MotionBlurPlugin::decide(const render::DecideContext& context) con
     needs.run = decideRun(facts);
     needs.exposure = {false, "the exposure is 0"};
     if (facts.exposureSeconds > 0.0)
-        needs.exposure = {true, "particles are drawn over its picture"};
+        needs.exposure = {true, "its picture shows the whole exposure"};
+    if (method.sampleUnit == SampleUnit::Instants)
+        needs.overlays.instants = settings().sampleCount;
+    needs.overlays.findsInstants = method.readsInstantMotions;
     if (method.rays == RayNeed::Any)
         needs.rays = decideRays(facts);
     if (method.rays == RayNeed::Query)
@@ -172,12 +175,6 @@ void MotionBlurPlugin::extract(render::ExtractContext& context) {
             {countInstants(settings(), usesLens(context.facts)), usesLens(context.facts)},
             settings().history
         );
-    extract::LayerLimits limits;
-    if (settings().method->sampleUnit == SampleUnit::Instants)
-        limits.instants = settings().sampleCount;
-    limits.findsInstants = settings().method->readsInstantMotions;
-    limits.hasLens = usesLens(context.facts);
-    mBlended.extract(context, limits);
 }
 
 void MotionBlurPlugin::declare(render::PictureContext& context) {
@@ -210,7 +207,7 @@ void MotionBlurPlugin::declare(render::PictureContext& context) {
     mDrawn.at(context.slot
     ) = {level, keepsOnly, standsIn, readsHistory(), mWanted.method, settings().method};
     inputs.slot = context.slot;
-    inputs.surfaces = mBlended.wanted(context.slot);
+    inputs.surfaces = {context.surfaces.begin(), context.surfaces.end()};
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
     if (standsIn)
@@ -228,7 +225,20 @@ void MotionBlurPlugin::declare(render::PictureContext& context) {
         context.explainer.decide(
             render::ExplainedKind::Pass, "ray reveal", {false, context.facts.reveal.reason}
         );
-    context.color = keepsOnly ? outputs.color : mBlended.declare(context, outputs);
+    context.color = outputs.color;
+    context.surfaceWords = outputs.surfaces;
+    context.compositeParts = [this, &graph = context.graph](
+                                 graph::ImageHandle picture,
+                                 const auto& draw,
+                                 const shader::InstantSurfaces& rectangle,
+                                 graph::BufferHandle words
+                             ) {
+        const auto drawPart = [&](uint32_t part) -> BlendedSums {
+            const render::OverlayPart drawn = draw(part);
+            return {drawn.color, drawn.opacity, drawn.share};
+        };
+        return mComposite.add(graph, picture, drawPart, rectangle, words);
+    };
     for (const View& view : outputs.views)
         context.intermediates.publish(std::string(view.name), view.image);
 }
@@ -247,7 +257,6 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))
         frame.counters[name] = value;
-    mBlended.count(frame.slot, frame.counters);
     explainCrowds(frame);
     frame.measures["blur ms"] = milliseconds;
     if (drawn.method != drawn.wanted)

@@ -7,7 +7,7 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/motion_blur.h"
-#include "modules/motion_blur/plugin/blended_surfaces.h"
+#include "modules/motion_blur/passes/composite.h"
 #include "modules/motion_blur/plugin/instant_motion_buffers.h"
 
 #include <array>
@@ -102,7 +102,7 @@ class MotionBlurPlugin : public render::Effect {
     std::optional<MotionBlurSettings> mStandIn; ///< of the next frame; nothing: the budget's
     std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     InstantMotionBuffers mInstantMotions;
-    BlendedSurfaces mBlended;
+    Composite mComposite;
     core::IdleCounter mHistoryIdle;
     MotionBlur mEffect;
 };

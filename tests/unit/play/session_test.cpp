@@ -301,7 +301,7 @@ TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
     settings.picture.features.shadows.mode = shadows::ShadowMode::None;
     settings.environment = false;
     settings.picture.bloom.share = 0.0f;
-    settings.picture.particles = false;
+    settings.picture.features.particles.areShown = false;
     press({Key::Digit6});
     EXPECT_EQ(settings.picture.antiAliasing, AntiAliasing::Taa);
     EXPECT_EQ(describeEffects(settings), "taa");

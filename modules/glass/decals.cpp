@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/decals.h"
+#include "modules/glass/decals.h"
 
 #include "engine/extract/raster_record.h"
-#include "shaders/render/blended_layer_shared.h"
+#include "shaders/glass/blended_layer_shared.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace shutter::extract {
+namespace shutter::glass {
 
 namespace {
 
@@ -24,7 +24,7 @@ constexpr size_t kMaxPoints = 8;
 constexpr size_t kMaxTestedTriangles = size_t{1} << 18;
 
 /// Null: the world has no triangles of the row's mesh.
-const scene::Mesh* findMesh(const SweptScene& scene, uint32_t row) {
+const scene::Mesh* findMesh(const extract::SweptScene& scene, uint32_t row) {
     const uint32_t mesh = scene.frame.entityMeshes[row];
     const auto& meshes = scene.world.assets.meshes;
     const size_t geometries =
@@ -35,7 +35,7 @@ const scene::Mesh* findMesh(const SweptScene& scene, uint32_t row) {
 
 /// The row's primitives that are blended, or else the others.
 std::vector<const scene::Primitive*>
-listPrimitives(const SweptScene& scene, uint32_t row, bool areBlended) {
+listPrimitives(const extract::SweptScene& scene, uint32_t row, bool areBlended) {
     std::vector<const scene::Primitive*> primitives;
     const scene::Mesh* const mesh = findMesh(scene, row);
     if (!mesh)
@@ -81,11 +81,10 @@ std::vector<dvec3> thin(const std::vector<dvec3>& points, size_t most) {
 
 } // namespace
 
-DecalSearch::DecalSearch(const SweptScene& scene)
-    : mScene(scene),
-      mPicture(
-          pictureFromWorldAt(scene.world, scene.view, scene.motion, scene.view.exposure.rasterTime)
-      ) {
+DecalSearch::DecalSearch(const extract::SweptScene& scene)
+    : mScene(scene), mPicture(extract::pictureFromWorldAt(
+                         scene.world, scene.view, scene.motion, scene.view.exposure.rasterTime
+                     )) {
     const dmat4 worldFromCamera = scene.motion.worldFromCamera(scene.view.exposure.rasterTime);
     mEye = dvec3(worldFromCamera[3]);
     mForward = -glm::normalize(dvec3(worldFromCamera[2]));
@@ -121,11 +120,11 @@ std::vector<dvec3> DecalSearch::listPoints(uint32_t row) const {
 void DecalSearch::listGrounds() {
     mIsListed = true;
     uint32_t last = std::numeric_limits<uint32_t>::max();
-    for (const DrawItem& item : mScene.frame.opaque.still) {
-        if (item.entity == last || findDeformed(mScene.frame, item.entity))
+    for (const extract::DrawItem& item : mScene.frame.opaque.still) {
+        if (item.entity == last || extract::findDeformed(mScene.frame, item.entity))
             continue;
         last = item.entity;
-        const math::Bounds& bounds = findRowBounds(mScene.frame, mScene.layout, last);
+        const math::Bounds& bounds = extract::findRowBounds(mScene.frame, mScene.layout, last);
         const dmat4& world = mScene.frame.worldFromObject[last];
         const double scale = std::sqrt(
             glm::dot(dvec3(world[0]), dvec3(world[0])) +
@@ -194,7 +193,7 @@ bool DecalSearch::isOnGround(const dvec3& point) {
 }
 
 bool DecalSearch::movesWithBackground(uint32_t row) {
-    if (findDeformed(mScene.frame, row))
+    if (extract::findDeformed(mScene.frame, row))
         return false;
     const std::vector<dvec3> points = listPoints(row);
     return !points.empty() && std::all_of(points.begin(), points.end(), [&](const dvec3& point) {
@@ -202,4 +201,4 @@ bool DecalSearch::movesWithBackground(uint32_t row) {
     });
 }
 
-} // namespace shutter::extract
+} // namespace shutter::glass

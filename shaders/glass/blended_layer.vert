@@ -2,7 +2,7 @@
 // A blended surface where it is at an instant of the exposure.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "render/blended_layer_shared.h"
+#include "glass/blended_layer_shared.h"
 #include "render/hit.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LayerPlaceRef {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/particles.h"
+#include "modules/particles/particle_tables.h"
 
 #include "engine/scene/clip_jumps.h"
 #include "engine/scene/motion.h"
@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-namespace shutter::extract {
+namespace shutter::particles {
 
 namespace {
 
@@ -147,8 +147,8 @@ class Extraction {
   public:
     Extraction(
         const scene::World& world,
-        const ViewRequest& request,
-        const FrameView& view,
+        const extract::ViewRequest& request,
+        const extract::FrameView& view,
         ParticleTime time
     )
         : mWorld(world), mRequest(request), mView(view), mMotion(view.motion()),
@@ -447,8 +447,8 @@ class Extraction {
     }
 
     const scene::World& mWorld;
-    const ViewRequest& mRequest;
-    const FrameView& mView;
+    const extract::ViewRequest& mRequest;
+    const extract::FrameView& mView;
     const scene::ExposureMotion& mMotion;
     dvec3 mEye;
     math::vec4 mForward;
@@ -462,14 +462,15 @@ class Extraction {
 } // namespace
 
 core::Result<ParticleTables> extractParticles(
-    const scene::World& world, const ViewRequest& request, const FrameView& view, ParticleTime time
+    const scene::World& world,
+    const extract::ViewRequest& request,
+    const extract::FrameView& view,
+    ParticleTime time
 ) {
-    if (!request.particles)
-        return ParticleTables{};
     Extraction extraction(world, request, view, time);
     for (auto [entity, emitter] : world.registry.view<ParticleEmitter>())
         SHUTTER_TRY(extraction.add(entity, emitter));
     return extraction.finish();
 }
 
-} // namespace shutter::extract
+} // namespace shutter::particles

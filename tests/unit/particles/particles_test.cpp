@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Particles as a picture's tables, and the formulas that shaders evaluate them by.
-#include "engine/extract/particle_instants.h"
 #include "engine/scene/history.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/particle_emitter.h"
 #include "engine/scene/recorded_motion.h"
+#include "modules/particles/particle_instants.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::particles {
 namespace {
 
 using math::dvec3;
@@ -25,9 +25,9 @@ using math::vec2;
 using math::vec3;
 using math::vec4;
 
-class Particles : public Extraction {
+class ParticlesOfScenes : public extract::Extraction {
   protected:
-    Particles() {
+    ParticlesOfScenes() {
         emitter.spans = {{.fromSeconds = -5.0, .untilSeconds = 5.0, .perSecond = 40.0}};
         emitter.velocity = dvec3(1.0, 2.0, 0.0);
         emitter.coneDegrees = 40.0;
@@ -43,7 +43,7 @@ class Particles : public Extraction {
     }
 
     [[nodiscard]] core::Result<ParticleTables> tryExtract(ParticleTime time) const {
-        return extractParticles(world, request, FrameView(world, request), time);
+        return extractParticles(world, request, extract::FrameView(world, request), time);
     }
 
     [[nodiscard]] ParticleTables extractAll(ParticleTime time = ParticleTime::Exposure) const {
@@ -60,7 +60,7 @@ class Particles : public Extraction {
     scene::ParticleEmitter emitter;
 };
 
-TEST_F(Particles, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
+TEST_F(ParticlesOfScenes, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
     addEmitter({0, 0, -10}, emitter);
     setTime(2.0);
     const ParticleTables alone = extractAll();
@@ -76,7 +76,7 @@ TEST_F(Particles, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
     EXPECT_TRUE(std::ranges::equal(bytesOf(extractAll()), bytesOf(alone)));
 }
 
-TEST_F(Particles, ParticlesAreSortedFarToNearAcrossEmitters) {
+TEST_F(ParticlesOfScenes, ParticlesAreSortedFarToNearAcrossEmitters) {
     emitter.velocity = dvec3(0.0, 0.0, 1.0);
     emitter.coneDegrees = 180.0;
     emitter.radius = 2.0;
@@ -101,7 +101,7 @@ TEST_F(Particles, ParticlesAreSortedFarToNearAcrossEmitters) {
         EXPECT_EQ(permuted.rows[i].placeAge, tables.rows[i].placeAge) << i;
 }
 
-TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
+TEST_F(ParticlesOfScenes, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     emitter = {};
     emitter.bursts = {{.seconds = 0.25, .count = 1}};
     emitter.inherit = 0.5;
@@ -118,7 +118,7 @@ TEST_F(Particles, ParticlesAreBornAtTheirEmitterAndStayInTheWorld) {
     EXPECT_NEAR(now.x, 2.0f, 1e-4f);
 }
 
-TEST_F(Particles, InheritedVelocityIsNotTakenOverAJump) {
+TEST_F(ParticlesOfScenes, InheritedVelocityIsNotTakenOverAJump) {
     emitter = {};
     emitter.inherit = 1.0;
     emitter.bursts = {{.seconds = 0.0, .count = 1}};
@@ -158,7 +158,7 @@ TEST_F(Particles, InheritedVelocityIsNotTakenOverAJump) {
         EXPECT_NEAR(measure(records, 0.6 + after), after > 0.0 ? 4.0f : 0.0f, 1e-2f) << after;
 }
 
-TEST_F(Particles, AnEmitterThatIsScaledToAPointEmitsNothing) {
+TEST_F(ParticlesOfScenes, AnEmitterThatIsScaledToAPointEmitsNothing) {
     emitter = {};
     emitter.bursts = {{.seconds = 0.2, .count = 1}, {.seconds = 0.4, .count = 1}};
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
@@ -167,7 +167,7 @@ TEST_F(Particles, AnEmitterThatIsScaledToAPointEmitsNothing) {
     EXPECT_EQ(extractAll().rows.size(), 1u);
 }
 
-TEST_F(Particles, CamerasStandOnBothSidesOfAJumpAndAsFarAsScalesReach) {
+TEST_F(ParticlesOfScenes, CamerasStandOnBothSidesOfAJumpAndAsFarAsScalesReach) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     setTime(2.0);
     animateX(camera, {0.0f, 1.96f}, {0.0f, 0.01f}, scene::Interpolation::Step);
@@ -187,7 +187,7 @@ TEST_F(Particles, CamerasStandOnBothSidesOfAJumpAndAsFarAsScalesReach) {
     EXPECT_LT(extractAll().cameras.front().s, -0.4f);
 }
 
-TEST_F(Particles, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
+TEST_F(ParticlesOfScenes, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
     world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
     world.assets.textures.push_back({.image = 0, .onParticles = true});
     emitter = {};
@@ -220,7 +220,7 @@ TEST_F(Particles, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
     EXPECT_TRUE(extractAll().areFleeting) << "it lights up";
 }
 
-TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
+TEST_F(ParticlesOfScenes, RecordedMotionIsKnownForTheLongestLife) {
     emitter = {};
     emitter.lifeSeconds = 3.0;
     emitter.bursts = {{.seconds = 0.5, .count = 1}};
@@ -236,7 +236,7 @@ TEST_F(Particles, RecordedMotionIsKnownForTheLongestLife) {
     EXPECT_NEAR(tables.rows[0].placeAge.x, 0.5f, 1e-5f);
 }
 
-TEST_F(Particles, AnExcludedEmitterAndACutAreStatic) {
+TEST_F(ParticlesOfScenes, AnExcludedEmitterAndACutAreStatic) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     setTime(2.0);
     EXPECT_GT(extractAll().emitters.at(0).secondsPerExposure, 0.0f);
@@ -250,7 +250,7 @@ TEST_F(Particles, AnExcludedEmitterAndACutAreStatic) {
     EXPECT_EQ(extractAll().rows.size(), atInstant);
 }
 
-TEST_F(Particles, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
+TEST_F(ParticlesOfScenes, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     setTime(2.0);
     const size_t all = extractAll().rows.size();
@@ -262,7 +262,7 @@ TEST_F(Particles, HiddenEmittersAndTimesBeforeTheirAppearanceHaveNoParticles) {
     EXPECT_TRUE(extractAll().empty());
 }
 
-TEST_F(Particles, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersName) {
+TEST_F(ParticlesOfScenes, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersName) {
     const auto expectRefused = [&](const std::string& name, const char* part) {
         const auto refused = tryExtract(ParticleTime::Exposure);
         ASSERT_FALSE(refused.ok());
@@ -288,7 +288,7 @@ TEST_F(Particles, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersName) {
     expectRefused("geyser", "65536");
 }
 
-TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
+TEST_F(ParticlesOfScenes, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
     world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
     world.assets.textures.push_back({.image = 0, .onParticles = true});
     emitter = {};
@@ -310,19 +310,19 @@ TEST_F(Particles, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
     EXPECT_EQ(countParts(9.0), 1u) << "streaks need none";
 }
 
-class ParticleInstants : public Particles {
+class ParticleInstants : public ParticlesOfScenes {
   protected:
     ParticleInstants() { addEmitter({0, 0, -10}, emitter); }
 
-    std::optional<shader::InstantSurfaces> plan(const LayerLimits& limits = kLimits) {
-        const ExtractedFrame frame = extract();
+    std::optional<shader::InstantSurfaces> plan(const render::OverlayLimits& limits = kLimits) {
+        const extract::ExtractedFrame frame = extract();
         const scene::ExposureMotion exposure = motion();
         return planParticleInstants(
             {world, layout, request, exposure, frame}, extractAll(), limits
         );
     }
 
-    static constexpr LayerLimits kLimits{
+    static constexpr render::OverlayLimits kLimits{
         .instants = 15,
         .findsInstants = true,
         .surfaceBytes = std::numeric_limits<uint64_t>::max()};
@@ -356,7 +356,7 @@ TEST_F(ParticleInstants, InstantsUnderAMovingCameraCoverAllParticles) {
 
 TEST_F(ParticleInstants, InstantsAreLimitedByTheBlendTheMethodAndTheMemory) {
     addMover({0, 1, -8}, {2, 0, 0});
-    LayerLimits limits = kLimits;
+    render::OverlayLimits limits = kLimits;
     limits.instants = 3;
     ASSERT_TRUE(plan(limits));
     EXPECT_EQ(plan(limits)->instantCount, 3u);
@@ -489,4 +489,4 @@ TEST(ParticleFormulas, ALifeIsCutToTheExposure) {
 }
 
 } // namespace
-} // namespace shutter::extract
+} // namespace shutter::particles

@@ -4,16 +4,16 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
+#include "engine/render/overlay_surfaces.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/world.h"
-#include "shaders/common/instant_surfaces.glsl"
-#include "shaders/render/blended_layer_shared.h"
+#include "shaders/glass/blended_layer_shared.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::glass {
 
 /// Pixels that a blended surface may move between two instants at which it is drawn.
 inline constexpr double kLayerStepPx = 2.5;
@@ -27,15 +27,15 @@ inline constexpr double kLayerStepPx = 2.5;
 /// \param hasLens the layer is drawn from places of the camera's lens
 [[nodiscard]] std::vector<uint32_t> findLayerRows(
     const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
+    const extract::SceneLayout& layout,
+    const extract::ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame,
+    const extract::ExtractedFrame& frame,
     bool hasLens = false
 );
 
 struct LayerItem {
-    DrawItem draw;
+    extract::DrawItem draw;
     uint32_t firstPlace = 0; ///< in BlendedLayer::places: one per instant
 };
 
@@ -61,30 +61,16 @@ struct BlendedLayer {
     }
 };
 
-struct LayerLimits {
-    uint32_t instants = 15; ///< maximum that are drawn
-    /// Above 1: minimum number of instants, each with another sample place in the pixel, for a
-    /// picture with anti-aliased edges.
-    uint32_t leastInstants = 1;
-    bool findsInstants = false; ///< the method reads depths and colours of instants
-    uint64_t surfaceBytes = 0;  ///< most memory for them
-    /// Each instant has a place of the camera's lens: that of the method's samples.
-    bool hasLens = false;
-};
-
-/// As many of the wanted instants as a buffer of that size holds; 0: not even one.
-[[nodiscard]] uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes);
-
 /// \param taken rows that findLayerRows() found
 /// \param view its jitter is that of the colours that the layer is drawn over
 [[nodiscard]] BlendedLayer planBlendedLayer(
     const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
+    const extract::SceneLayout& layout,
+    const extract::ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame,
+    const extract::ExtractedFrame& frame,
     std::span<const uint32_t> taken,
-    const LayerLimits& limits
+    const render::OverlayLimits& limits
 );
 
-} // namespace shutter::extract
+} // namespace shutter::glass

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/instant_surfaces.glsl"
-#include "render/particle.glsl"
+#include "particles/particle.glsl"
 
 layout(binding = 0) uniform sampler2D uMotionDepth; // of the raster
 layout(binding = 1, scalar) readonly buffer Surfaces {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/particle_instants.h"
+#include "modules/particles/particle_instants.h"
 
 #include <algorithm>
 
-namespace shutter::extract {
+namespace shutter::particles {
 
 namespace {
 
@@ -11,19 +11,21 @@ namespace {
 constexpr uint32_t kMaxParticleInstants = 16;
 
 /// Grows `all` around what `one` and `within` share.
-void addShared(SweptBox& all, const SweptBox& one, const SweptBox& within) {
+void addShared(
+    extract::SweptBox& all, const extract::SweptBox& one, const extract::SweptBox& within
+) {
     all.least = glm::min(all.least, glm::max(one.least, within.least));
     all.most = glm::max(all.most, glm::min(one.most, within.most));
 }
 
 /// The part of `seen` that opaque movers come over.
-SweptBox findMet(const SweptScene& scene, const SweptBox& seen) {
+extract::SweptBox findMet(const extract::SweptScene& scene, const extract::SweptBox& seen) {
     const auto movers = scene.sweepOpaqueMovers();
     if (!movers)
         return seen;
-    SweptBox met;
-    for (const SweptBox& mover : *movers)
-        if (overlap(mover, seen))
+    extract::SweptBox met;
+    for (const extract::SweptBox& mover : *movers)
+        if (extract::overlap(mover, seen))
             addShared(met, mover, seen);
     return met;
 }
@@ -31,20 +33,22 @@ SweptBox findMet(const SweptScene& scene, const SweptBox& seen) {
 } // namespace
 
 std::optional<shader::InstantSurfaces> planParticleInstants(
-    const SweptSource& source, const ParticleTables& particles, const LayerLimits& limits
+    const extract::SweptSource& source,
+    const ParticleTables& particles,
+    const render::OverlayLimits& limits
 ) {
     if (particles.empty() || particles.isInstant || !limits.findsInstants)
         return std::nullopt;
-    SweptBox seen;
+    extract::SweptBox seen;
     seen.least = glm::max(particles.leastPx, math::dvec2(0.0));
     seen.most = glm::min(particles.mostPx, math::dvec2(source.view.width, source.view.height));
     if (!(seen.least.x < seen.most.x && seen.least.y < seen.most.y))
         return std::nullopt;
-    const SweptScene scene(source);
+    const extract::SweptScene scene(source);
     // The tables of particles have no depth along the view of an orthographic camera that moves.
     if (scene.cameraMoves && !scene.isPerspective)
         return std::nullopt;
-    const SweptBox box = scene.cameraMoves ? seen : findMet(scene, seen);
+    const extract::SweptBox box = scene.cameraMoves ? seen : findMet(scene, seen);
     if (!(box.least.x < box.most.x && box.least.y < box.most.y))
         return std::nullopt;
     shader::InstantSurfaces wanted{};
@@ -52,7 +56,7 @@ std::optional<shader::InstantSurfaces> planParticleInstants(
     wanted.sizePx = math::uvec2(glm::ceil(box.most)) - wanted.originPx;
     wanted.instantCount = std::min(limits.instants, kMaxParticleInstants);
     wanted.partCount = particles.hides ? shader::kMaxSurfaceParts : 1;
-    wanted.instantCount = fitInstants(wanted, limits.surfaceBytes);
+    wanted.instantCount = render::fitInstants(wanted, limits.surfaceBytes);
     // Parts of as many instants each: particles are drawn in equal parts.
     if (wanted.instantCount > wanted.partCount)
         wanted.instantCount -= wanted.instantCount % wanted.partCount;
@@ -62,4 +66,4 @@ std::optional<shader::InstantSurfaces> planParticleInstants(
     return wanted;
 }
 
-} // namespace shutter::extract
+} // namespace shutter::particles

@@ -5,7 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "common/instant_surfaces.glsl"
 #include "common/numeric.glsl"
-#include "common/particle_shared.h"
+#include "particles/particle_shared.h"
 
 layout(push_constant, scalar) uniform Push { uint partCount; };
 layout(binding = 0) uniform sampler2D uColor;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/particles.h"
+#include "modules/particles/particle_pass.h"
 
-#include "spirv/render/particle.frag.h"
-#include "spirv/render/particle.vert.h"
-#include "spirv/render/particle_composite.frag.h"
+#include "spirv/particles/particle.frag.h"
+#include "spirv/particles/particle.vert.h"
+#include "spirv/particles/particle_composite.frag.h"
 #include "spirv/render/sky.vert.h"
 
 #include "engine/core/check.h"
@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace shutter::render {
+namespace shutter::particles {
 
 namespace {
 
@@ -28,8 +28,8 @@ VkDeviceSize alignPart(VkDeviceSize bytes) {
 
 /// Returns the number of parts of the exposure in which the particles are drawn, as required by
 /// their textures or their background: four, one or, with few instants, some in between.
-uint32_t countDraws(const extract::ParticleTables& tables, const ParticleTargets& targets) {
-    const uint32_t behind = targets.instants ? targets.instants->rectangle.partCount : 1;
+uint32_t countDraws(const ParticleTables& tables, const render::OverlayContext& targets) {
+    const uint32_t behind = targets.surfaces ? targets.surfaces->rectangle.partCount : 1;
     return tables.parts <= behind ? behind : behind > 1 ? shader::kMaxParticleParts : tables.parts;
 }
 
@@ -41,7 +41,7 @@ bool isDrawable(const graph::Graph& graph, graph::ImageHandle image) {
 
 } // namespace
 
-shader::ParticleDraw ParticleBuffer::upload(const extract::ParticleTables& tables) {
+shader::ParticleDraw ParticleBuffer::upload(const ParticleTables& tables) {
     SHUTTER_CHECK(!tables.empty(), "no particle");
     std::vector<shader::ParticleEmitterRow> emitters = tables.emitters;
     for (shader::ParticleEmitterRow& row : emitters)
@@ -76,8 +76,8 @@ const gpu::Pipeline& ParticlePass::findDraw(const DrawKey& key) {
         return known->second;
     gpu::GraphicsPipelineDesc desc;
     desc.name = "particles";
-    desc.vertexSpirv = render_particle_vert;
-    desc.fragmentSpirv = render_particle_frag;
+    desc.vertexSpirv = particles_particle_vert;
+    desc.fragmentSpirv = particles_particle_frag;
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     desc.interface.pushConstantBytes = sizeof(shader::ParticleDraw);
@@ -95,7 +95,7 @@ const gpu::Pipeline& ParticlePass::findComposite(const CompositeKey& key) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "particle composite";
     desc.vertexSpirv = render_sky_vert;
-    desc.fragmentSpirv = render_particle_composite_frag;
+    desc.fragmentSpirv = particles_particle_composite_frag;
     desc.interface.bindings.assign(
         1 + shader::kMaxParticleParts, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
     );
@@ -115,18 +115,19 @@ graph::ImageHandle ParticlePass::declareDraw(
         graph::BufferHandle instants;
     };
 
-    const ParticleTargets& targets = draws.targets;
-    const gpu::Pipeline& pipeline =
-        findDraw({draws.graph.describeImage(target).format, isLayer, targets.instants.has_value()});
-    return draws.graph
+    const render::OverlayContext& targets = draws.context;
+    const gpu::Pipeline& pipeline = findDraw(
+        {draws.context.graph.describeImage(target).format, isLayer, targets.surfaces.has_value()}
+    );
+    return draws.context.graph
         .addPass<Data>(
             "particles",
             graph::PassKind::Raster,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.depth = builder.read(targets.motionDepth, graph::Access::SampledFragment);
-                if (targets.instants)
+                if (targets.surfaces)
                     data.instants =
-                        builder.read(targets.instants->words, graph::Access::ShaderRead);
+                        builder.read(targets.surfaces->words, graph::Access::ShaderRead);
                 std::optional<graph::ClearColor> clear;
                 if (isLayer)
                     clear = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 1.0f);
@@ -158,12 +159,12 @@ ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageH
         graph::ImageHandle target;
     };
 
-    const ParticleTargets& targets = draws.targets;
-    const graph::TransientImageDesc desc = draws.graph.describeImage(targets.color);
-    const bool readsParts = targets.instants && targets.instants->rectangle.partCount > 1;
+    const render::OverlayContext& targets = draws.context;
+    const graph::TransientImageDesc desc = draws.context.graph.describeImage(targets.color);
+    const bool readsParts = targets.surfaces && targets.surfaces->rectangle.partCount > 1;
     const gpu::Pipeline& pipeline = findComposite({desc.format, readsParts});
-    const auto target = draws.graph.createImage("color with particles", desc);
-    return draws.graph
+    const auto target = draws.context.graph.createImage("color with particles", desc);
+    return draws.context.graph
         .addPass<Data>(
             "particle composite",
             graph::PassKind::Raster,
@@ -175,7 +176,7 @@ ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageH
                                         : data.parts[0];
                 if (readsParts)
                     data.instants =
-                        builder.read(targets.instants->words, graph::Access::ShaderRead);
+                        builder.read(targets.surfaces->words, graph::Access::ShaderRead);
                 data.target =
                     builder.colorTarget(target, graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f));
             },
@@ -199,11 +200,9 @@ ParticlePass::declareComposite(const Draws& draws, std::span<const graph::ImageH
 }
 
 graph::ImageHandle ParticlePass::declare(
-    graph::Graph& graph,
-    const extract::ParticleTables& tables,
-    ParticleBuffer& buffer,
-    const ParticleTargets& targets
+    const ParticleTables& tables, ParticleBuffer& buffer, const render::OverlayContext& targets
 ) {
+    graph::Graph& graph = targets.graph;
     shader::ParticleDraw draw = buffer.upload(tables);
     draw.frame = gpu::splitAddress(targets.frameConstants);
     draw.response = gpu::splitAddress(targets.response);
@@ -211,7 +210,7 @@ graph::ImageHandle ParticlePass::declare(
     draw.jitter =
         math::vec2(-2.0 * targets.jitterPx / math::dvec2(double(desc.width), double(desc.height)));
     draw.lightShare = tables.isInstant ? math::vec2(0.0f) : math::vec2(0.0f, 1.0f);
-    const Draws draws{graph, targets, buffer.handle(), static_cast<uint32_t>(tables.rows.size())};
+    const Draws draws{targets, buffer.handle(), static_cast<uint32_t>(tables.rows.size())};
     const uint32_t parts = countDraws(tables, targets);
     if (parts == 1 && !tables.mayOverflow && isDrawable(graph, targets.color))
         return declareDraw(draws, targets.color, draw, false);
@@ -226,4 +225,4 @@ graph::ImageHandle ParticlePass::declare(
     return declareComposite(draws, layers);
 }
 
-} // namespace shutter::render
+} // namespace shutter::particles

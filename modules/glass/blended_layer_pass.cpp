@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/blended_layer.h"
+#include "modules/glass/blended_layer_pass.h"
 
-#include "spirv/render/blended_layer.frag.h"
-#include "spirv/render/blended_layer.vert.h"
-#include "spirv/render/blended_layer_reset.frag.h"
+#include "spirv/glass/blended_layer.frag.h"
+#include "spirv/glass/blended_layer.vert.h"
+#include "spirv/glass/blended_layer_reset.frag.h"
 #include "spirv/render/sky.vert.h"
 
 #include "engine/gpu/vulkan.h"
@@ -11,7 +11,7 @@
 
 #include <span>
 
-namespace shutter::render {
+namespace shutter::glass {
 
 namespace {
 
@@ -27,8 +27,8 @@ gpu::GraphicsPipelineDesc describeLayer(const char* name) {
 
 gpu::GraphicsPipelineDesc describeDraw(const gpu_scene::GpuScene& scene, bool readsInstants) {
     gpu::GraphicsPipelineDesc desc = describeLayer("blended layer");
-    desc.vertexSpirv = render_blended_layer_vert;
-    desc.fragmentSpirv = render_blended_layer_frag;
+    desc.vertexSpirv = glass_blended_layer_vert;
+    desc.fragmentSpirv = glass_blended_layer_frag;
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     desc.interface.pushConstantBytes = sizeof(shader::LayerDraw);
@@ -41,7 +41,7 @@ gpu::GraphicsPipelineDesc describeDraw(const gpu_scene::GpuScene& scene, bool re
 gpu::GraphicsPipelineDesc describeReset() {
     gpu::GraphicsPipelineDesc desc = describeLayer("reset blended layer");
     desc.vertexSpirv = render_sky_vert;
-    desc.fragmentSpirv = render_blended_layer_reset_frag;
+    desc.fragmentSpirv = glass_blended_layer_reset_frag;
     desc.blend = gpu::Blend::AlphaOnly;
     return desc;
 }
@@ -54,7 +54,7 @@ class BlendedLayerPass::Recorder {
     Recorder(
         const BlendedLayerPass& pass,
         graph::PassContext& context,
-        const extract::BlendedLayer& layer,
+        const BlendedLayer& layer,
         const gpu::BindingList& bindings,
         VkDeviceAddress frameConstants,
         uint32_t slot
@@ -105,7 +105,7 @@ class BlendedLayerPass::Recorder {
         mDraw.instant = gpu::splitAddress(mTables + instant * sizeof(shader::LayerInstant));
         const VkDeviceAddress places =
             mTables + mLayer.instants.size() * sizeof(shader::LayerInstant);
-        for (const extract::LayerItem& item : mLayer.items) {
+        for (const LayerItem& item : mLayer.items) {
             mDraw.entity = item.draw.entity;
             mDraw.geometry = item.draw.geometryRow;
             mDraw.place = gpu::splitAddress(
@@ -132,7 +132,7 @@ class BlendedLayerPass::Recorder {
 
     const BlendedLayerPass& mPass;
     graph::PassContext& mContext;
-    const extract::BlendedLayer& mLayer;
+    const BlendedLayer& mLayer;
     const gpu::BindingList& mBindings;
     VkDeviceAddress mTables;
     shader::LayerDraw mDraw{};
@@ -146,7 +146,7 @@ void BlendedLayerPass::preparePipelines() {
     mReset = gpu::Pipeline(mDevice, describeReset());
 }
 
-void BlendedLayerPass::upload(const extract::BlendedLayer& layer, uint32_t slot) {
+void BlendedLayerPass::upload(const BlendedLayer& layer, uint32_t slot) {
     gpu::Buffer& tables = mTables.at(slot);
     const std::span<const shader::LayerInstant> instants(layer.instants);
     const std::span<const shader::LayerPlace> places(layer.places);
@@ -163,9 +163,9 @@ void BlendedLayerPass::upload(const extract::BlendedLayer& layer, uint32_t slot)
     tables.write(places, instants.size_bytes());
 }
 
-BlendedPart BlendedLayerPass::declare(
-    const PictureContext& context,
-    const extract::BlendedLayer& layer,
+render::OverlayPart BlendedLayerPass::declare(
+    const render::OverlayContext& context,
+    const BlendedLayer& layer,
     graph::BufferHandle surfaces,
     uint32_t part
 ) {
@@ -173,13 +173,13 @@ BlendedPart BlendedLayerPass::declare(
     if (part == 0)
         upload(layer, context.slot);
     graph::Graph& graph = context.graph;
-    BlendedPart targets;
+    render::OverlayPart targets;
     const math::uvec2 allocated = shader::sizeInSteps(layer.sizePx);
     const graph::TransientImageDesc size{allocated.x, allocated.y, kLayerFormat};
     targets.color = graph.createImage("blended color", size);
     targets.opacity = graph.createImage("blended opacity", size);
     const graph::BufferHandle shapes = context.shapes.buffer;
-    const graph::ImageHandle motionDepth = context.gbuffer.motionDepth;
+    const graph::ImageHandle motionDepth = context.motionDepth;
     const math::uvec2 pictureSize(context.view.width, context.view.height);
     const bool isPerspective = context.frame.constants.pixelFootprint.x > 0.0f;
 
@@ -221,4 +221,4 @@ BlendedPart BlendedLayerPass::declare(
     return targets;
 }
 
-} // namespace shutter::render
+} // namespace shutter::glass

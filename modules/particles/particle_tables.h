@@ -7,13 +7,13 @@
 #include "engine/extract/frame_view.h"
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
-#include "shaders/common/particle_shared.h"
+#include "shaders/particles/particle_shared.h"
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::particles {
 
 /// Over which time particles are shown.
 enum class ParticleTime : uint8_t {
@@ -48,7 +48,10 @@ struct ParticleTables {
 /// \param view of the frame, made from `world` and `request`
 /// Error: an emitter that cannot be drawn, or more particles than scene::kMaxParticles.
 [[nodiscard]] core::Result<ParticleTables> extractParticles(
-    const scene::World& world, const ViewRequest& request, const FrameView& view, ParticleTime time
+    const scene::World& world,
+    const extract::ViewRequest& request,
+    const extract::FrameView& view,
+    ParticleTime time
 );
 
-} // namespace shutter::extract
+} // namespace shutter::particles

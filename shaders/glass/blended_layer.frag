@@ -6,7 +6,7 @@
 #define SHUTTER_UNIFORM_MATERIAL
 #include "common/instant_surfaces.glsl"
 #include "common/picture_space.glsl"
-#include "render/blended_layer_shared.h"
+#include "glass/blended_layer_shared.h"
 #include "render/lighting.glsl"
 #include "render/fragment_point.glsl"
 

@@ -2,37 +2,17 @@
 // Draws particles over a picture: at one instant, or with their motion over an exposure.
 #pragma once
 
-#include "engine/extract/particles.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
-#include "engine/graph/graph.h"
-#include "shaders/common/instant_surfaces.glsl"
+#include "engine/render/overlay.h"
+#include "modules/particles/particle_tables.h"
 
 #include <compare>
 #include <map>
-#include <optional>
 #include <span>
 
-namespace shutter::render {
-
-/// Surfaces visible in the pixels of a rectangle at instants of the exposure.
-struct ParticleInstants {
-    shader::InstantSurfaces rectangle;
-    graph::BufferHandle words; ///< the rectangle, and data for shaders/common/instant_surfaces.glsl
-};
-
-/// Targets and inputs of drawing particles.
-struct ParticleTargets {
-    graph::ImageHandle color;           ///< linear HDR
-    graph::ImageHandle motionDepth;     ///< GBuffer::motionDepth: hides them
-    VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
-    VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
-    math::dvec2 jitterPx{0.0};          ///< of the colour (ViewRequest::jitterPx)
-    /// Instants of the blurred picture that is drawn on. Without, the raster's depth hides
-    /// everywhere.
-    std::optional<ParticleInstants> instants{};
-};
+namespace shutter::particles {
 
 /// One for each frame in flight: the GPU must have finished the frame that it was last declared
 /// for.
@@ -41,8 +21,8 @@ class ParticleBuffer {
     explicit ParticleBuffer(gpu::Device& device) : mDevice(device) {}
 
     /// \param tables not empty
-    /// \return without the fields that come from ParticleTargets
-    [[nodiscard]] shader::ParticleDraw upload(const extract::ParticleTables& tables);
+    /// \return without the fields that come from OverlayContext
+    [[nodiscard]] shader::ParticleDraw upload(const ParticleTables& tables);
 
     /// The buffer that upload() wrote.
     [[nodiscard]] VkBuffer handle() const { return mBuffer.handle(); }
@@ -61,10 +41,7 @@ class ParticlePass {
     /// empty; `buffer` until they have run.
     /// \return the picture with them
     [[nodiscard]] graph::ImageHandle declare(
-        graph::Graph& graph,
-        const extract::ParticleTables& tables,
-        ParticleBuffer& buffer,
-        const ParticleTargets& targets
+        const ParticleTables& tables, ParticleBuffer& buffer, const render::OverlayContext& context
     );
 
   private:
@@ -85,8 +62,7 @@ class ParticlePass {
 
     /// Data shared by all draws of a picture.
     struct Draws {
-        graph::Graph& graph;
-        const ParticleTargets& targets;
+        const render::OverlayContext& context;
         VkBuffer tables; ///< placeholder if there are no instants
         uint32_t count;  ///< of particles
     };
@@ -108,4 +84,4 @@ class ParticlePass {
     std::map<CompositeKey, gpu::Pipeline> mComposites;
 };
 
-} // namespace shutter::render
+} // namespace shutter::particles

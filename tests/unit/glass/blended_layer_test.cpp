@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Which blended surfaces leave the raster, and how they are drawn.
-#include "engine/extract/blended_layer.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
+#include "modules/glass/blended_layer.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace shutter::extract {
+namespace shutter::glass {
 namespace {
 
 using math::dvec3;
 
-class BlendedLayers : public Extraction {
+class BlendedLayers : public extract::Extraction {
   protected:
     BlendedLayers() {
         glass = addMesh(scene::AlphaMode::Blend, 1);
@@ -23,20 +23,20 @@ class BlendedLayers : public Extraction {
 
     /// Of the entities in the layer.
     std::vector<ecs::Entity> findLayer() {
-        ExtractedFrame frame = extract();
+        extract::ExtractedFrame frame = extract();
         std::vector<ecs::Entity> entities;
         for (const uint32_t row : findLayerRows(world, layout, request, motion(), frame))
             entities.push_back(frame.entityHandles[row]);
         return entities;
     }
 
-    BlendedLayer plan(const LayerLimits& limits) {
-        ExtractedFrame frame = extract();
+    BlendedLayer plan(const render::OverlayLimits& limits) {
+        extract::ExtractedFrame frame = extract();
         const auto taken = findLayerRows(world, layout, request, motion(), frame);
         return planBlendedLayer(world, layout, request, motion(), frame, taken, limits);
     }
 
-    static LayerLimits limitsOf(uint32_t instants) {
+    static render::OverlayLimits limitsOf(uint32_t instants) {
         return {
             .instants = instants,
             .findsInstants = true,
@@ -141,7 +141,7 @@ TEST_F(BlendedLayers, StaticGlassThatMovesAsItsBackgroundInThePictureStaysInTheR
         large.scale = dvec3(3.0);
         addBox(large, wall);
         addBox({0, 0, -each.depth}, pane);
-        ExtractedFrame frame = extract();
+        extract::ExtractedFrame frame = extract();
         const auto rows = findLayerRows(world, layout, request, motion(), frame, each.hasLens);
         EXPECT_EQ(!rows.empty(), each.isInLayer);
     }
@@ -150,8 +150,8 @@ TEST_F(BlendedLayers, StaticGlassThatMovesAsItsBackgroundInThePictureStaysInTheR
 TEST_F(BlendedLayers, InstantsOfALensHavePlacesOfItAndReachOverItsCircles) {
     world.registry.add(camera, scene::CameraLens{.fStop = 0.02, .focusDistance = 40.0});
     addBox({0, 0, -10}, glass);
-    ExtractedFrame frame = extract();
-    LayerLimits limits = limitsOf(15);
+    extract::ExtractedFrame frame = extract();
+    render::OverlayLimits limits = limitsOf(15);
     limits.hasLens = true;
     const auto taken = findLayerRows(world, layout, request, motion(), frame, true);
     const BlendedLayer layer =
@@ -201,7 +201,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
     EXPECT_EQ(behind.instants.size(), 15u);
     EXPECT_EQ(behind.partCount, shader::kMaxSurfaceParts);
     // A method without lookups has the raster's depth.
-    LayerLimits limits = limitsOf(15);
+    render::OverlayLimits limits = limitsOf(15);
     limits.findsInstants = false;
     EXPECT_FALSE(plan(limits).readsInstants);
     EXPECT_EQ(plan(limits).partCount, 1u);
@@ -210,7 +210,7 @@ TEST_F(BlendedLayers, StaticGlassBeforeAMoverIsDrawnOnceAndBehindOneAtEachInstan
 TEST_F(BlendedLayers, FewerInstantsAreLookedUpWithLessMemory) {
     addBox({0, 0, -10}, glass);
     addMover({0, 0, -5}, {3, 0, 0});
-    LayerLimits limits = limitsOf(15);
+    render::OverlayLimits limits = limitsOf(15);
     const shader::InstantSurfaces whole = plan(limits).surfaces();
     const uint64_t pixels = shader::surfacePixels(whole);
     limits.surfaceBytes = sizeof(whole) + pixels * 4 * 11; // 6 depths in 3 words, 4 parts in 8
@@ -259,4 +259,4 @@ TEST(LayerInstants, InstantsAreSymmetricInTime) {
 }
 
 } // namespace
-} // namespace shutter::extract
+} // namespace shutter::glass

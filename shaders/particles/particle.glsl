@@ -3,7 +3,7 @@
 #ifndef SHUTTER_PARTICLE_GLSL
 #define SHUTTER_PARTICLE_GLSL
 
-#include "common/particle_shared.h"
+#include "particles/particle_shared.h"
 #include "common/shutter_response.glsl"
 #include "render/environment.glsl"
 #include "render/scene_bindings.glsl"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/blended_layer.h"
+#include "modules/glass/blended_layer.h"
 
-#include "engine/extract/decals.h"
 #include "engine/extract/frame_view.h"
 #include "engine/extract/raster_record.h"
 #include "engine/extract/swept_scene.h"
 #include "engine/math/lens_pairs.h"
 #include "engine/math/sampling.h"
+#include "modules/glass/decals.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <limits>
 #include <optional>
 
-namespace shutter::extract {
+namespace shutter::glass {
 
 namespace {
 
@@ -30,15 +30,15 @@ constexpr double kStillWayPx = 0.5;
 /// A row with blended surfaces.
 struct Blended {
     uint32_t row = 0;
-    SweptBox box;
+    extract::SweptBox box;
     bool isInLayer = false;
     bool isDecal = false; ///< moves as its background does: nothing else needs to be drawn with it
 };
 
-std::vector<Blended> listBlended(const SweptScene& scene) {
+std::vector<Blended> listBlended(const extract::SweptScene& scene) {
     std::vector<Blended> rows;
     const auto add = [&](uint32_t row, bool moves) {
-        const SweptBox box = scene.sweep(row);
+        const extract::SweptBox box = scene.sweep(row);
         if (scene.isInPicture(box))
             rows.push_back({row, box, moves, false});
     };
@@ -46,7 +46,7 @@ std::vector<Blended> listBlended(const SweptScene& scene) {
         if (scene.hasGeometry(row, true))
             add(row, scene.moves(row));
     std::vector<uint32_t> still;
-    for (const DrawItem& item : scene.frame.blended.still)
+    for (const extract::DrawItem& item : scene.frame.blended.still)
         still.push_back(item.entity);
     std::sort(still.begin(), still.end());
     still.erase(std::unique(still.begin(), still.end()), still.end());
@@ -62,10 +62,10 @@ void closeOver(std::vector<Blended>& rows) {
         if (rows[i].isInLayer)
             reached.push_back(i);
     while (!reached.empty()) {
-        const SweptBox box = rows[reached.back()].box;
+        const extract::SweptBox box = rows[reached.back()].box;
         reached.pop_back();
         for (size_t i = 0; i < rows.size(); ++i)
-            if (!rows[i].isInLayer && overlap(rows[i].box, box) &&
+            if (!rows[i].isInLayer && extract::overlap(rows[i].box, box) &&
                 !(rows[i].isDecal && rows[i].box.nearest > box.farthest)) {
                 rows[i].isInLayer = true;
                 reached.push_back(i);
@@ -75,7 +75,7 @@ void closeOver(std::vector<Blended>& rows) {
 
 /// Clip space of an instant's camera from its picture space, the depth apart: only the near plane
 /// clips.
-dmat4 clipFromPicture(const ViewRequest& view, bool isPerspective, double nearest) {
+dmat4 clipFromPicture(const extract::ViewRequest& view, bool isPerspective, double nearest) {
     const double width = view.width;
     const double height = view.height;
     dmat4 rows(0.0);
@@ -92,12 +92,12 @@ dmat4 clipFromPicture(const ViewRequest& view, bool isPerspective, double neares
 /// Builds the layer of one frame.
 class LayerPlanner {
   public:
-    LayerPlanner(const SweptSource& source, const LayerLimits& limits)
+    LayerPlanner(const extract::SweptSource& source, const render::OverlayLimits& limits)
         : mScene(source), mLimits(limits) {}
 
     BlendedLayer run(std::span<const uint32_t> taken) {
         for (const uint32_t row : taken) {
-            const SweptBox box = mScene.sweep(row);
+            const extract::SweptBox box = mScene.sweep(row);
             if (mScene.isInPicture(box))
                 mRows.push_back({row, box, true, false});
         }
@@ -136,8 +136,10 @@ class LayerPlanner {
         const auto before = mScene.hasParallax() ? mScene.sweepOpaque() : behind;
         for (const Blended& one : mRows) {
             const bool moves = one.box.wayPx > kStillWayPx;
-            const auto touches = [&](const SweptBox& box) { return overlap(box, one.box); };
-            const auto mayHide = [&](const SweptBox& box) {
+            const auto touches = [&](const extract::SweptBox& box) {
+                return extract::overlap(box, one.box);
+            };
+            const auto mayHide = [&](const extract::SweptBox& box) {
                 return touches(box) && box.nearest < one.box.farthest;
             };
             mIsHidden =
@@ -169,30 +171,32 @@ class LayerPlanner {
         shader::InstantSurfaces wanted = mLayer.surfaces();
         wanted.instantCount = count;
         wanted.partCount = shader::kMaxSurfaceParts;
-        if (const uint32_t fitting = fitInstants(wanted, mLimits.surfaceBytes))
+        if (const uint32_t fitting = render::fitInstants(wanted, mLimits.surfaceBytes))
             return fitting;
         mLayer.readsInstants = false;
         return countInstants();
     }
 
     void addInstants(uint32_t count) {
-        const ViewRequest& view = mScene.view;
+        const extract::ViewRequest& view = mScene.view;
         const auto& camera = mScene.world.registry.get<scene::Camera>(view.camera);
         const dmat4 clip = clipFromPicture(view, mScene.isPerspective, camera.near);
         const double raster = view.exposure.rasterTime;
         mEye = math::dvec3(mScene.motion.worldFromCamera(raster)[3]);
         dmat4 worldFromRelWorld(1.0);
         worldFromRelWorld[3] = dvec4(mEye, 1.0);
-        const dmat4 rasterPicture = pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
+        const dmat4 rasterPicture =
+            extract::pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
         mTimes = scene::middlesOfLight(view.exposure, count);
         for (uint32_t i = 0; i < count; ++i) {
             const double s = mTimes[i];
-            ViewRequest jittered = view;
+            extract::ViewRequest jittered = view;
             if (mLimits.hasLens && count > 1)
                 jittered.lensPlace = placeInLens(i, count);
             if (mLimits.leastInstants > 1)
                 jittered.jitterPx += math::halton23(i + 1) - 0.5;
-            const dmat4 picture = pictureFromWorldAt(mScene.world, jittered, mScene.motion, s);
+            const dmat4 picture =
+                extract::pictureFromWorldAt(mScene.world, jittered, mScene.motion, s);
             const dmat4 test = glm::transpose(
                 (mLayer.readsInstants ? picture : rasterPicture) * worldFromRelWorld
             );
@@ -220,7 +224,7 @@ class LayerPlanner {
             const auto firstPlace = static_cast<uint32_t>(mLayer.places.size());
             addPlaces(one.row);
             const uint32_t mesh = mScene.frame.entityMeshes[one.row];
-            const SceneLayout& layout = mScene.layout;
+            const extract::SceneLayout& layout = mScene.layout;
             const uint32_t first = layout.firstGeometry[mesh];
             for (uint32_t i = first; i < layout.firstGeometry[mesh + 1]; ++i)
                 if (layout.geometries[i].alphaMode == scene::AlphaMode::Blend)
@@ -252,10 +256,10 @@ class LayerPlanner {
         }
     }
 
-    DrawItem describeDraw(uint32_t row, uint32_t geometry, uint32_t firstOfMesh) const {
-        const ExtractedFrame& frame = mScene.frame;
-        const SceneLayout::GeometryInfo& info = mScene.layout.geometries[geometry];
-        const math::Bounds& bounds = findRowBounds(frame, mScene.layout, row);
+    extract::DrawItem describeDraw(uint32_t row, uint32_t geometry, uint32_t firstOfMesh) const {
+        const extract::ExtractedFrame& frame = mScene.frame;
+        const extract::SceneLayout::GeometryInfo& info = mScene.layout.geometries[geometry];
+        const math::Bounds& bounds = extract::findRowBounds(frame, mScene.layout, row);
         const math::dvec3 centre(
             frame.worldFromObject[row] * dvec4(math::dvec3(bounds.centre()), 1.0)
         );
@@ -270,8 +274,8 @@ class LayerPlanner {
             std::isnan(distance) ? std::numeric_limits<float>::infinity() : float(distance)};
     }
 
-    SweptScene mScene;
-    LayerLimits mLimits;
+    extract::SweptScene mScene;
+    render::OverlayLimits mLimits;
     BlendedLayer mLayer;
     bool mIsHidden = false; ///< opaque surfaces may hide other parts of it at other instants
     /// Both the layer and its background move. Parts of the exposure see through all of a lens
@@ -285,39 +289,28 @@ class LayerPlanner {
 
 } // namespace
 
-uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes) {
-    const uint32_t parts = wanted.partCount;
-    for (; wanted.instantCount > 0; --wanted.instantCount) {
-        wanted.partCount = std::min(wanted.instantCount, parts);
-        const uint64_t words =
-            uint64_t(shader::surfaceWordsPerPixel(wanted)) * wanted.sizePx.x * wanted.sizePx.y;
-        if (words * sizeof(uint32_t) + sizeof(wanted) <= bytes)
-            break;
-    }
-    return wanted.instantCount;
-}
-
 std::vector<uint32_t> findLayerRows(
     const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
+    const extract::SceneLayout& layout,
+    const extract::ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame,
+    const extract::ExtractedFrame& frame,
     bool hasLens
 ) {
     if (!layout.hasBlended)
         return {};
-    const SweptScene scene({world, layout, view, motion, frame, hasLens});
+    const extract::SweptScene scene({world, layout, view, motion, frame, hasLens});
     std::vector<Blended> rows = listBlended(scene);
     if (rows.empty())
         return {};
     const auto movers = scene.sweepOpaqueMovers();
     DecalSearch decals(scene);
     for (Blended& one : rows) {
-        one.isInLayer = one.isInLayer || !movers ||
-                        std::any_of(movers->begin(), movers->end(), [&](const SweptBox& mover) {
-                            return overlap(mover, one.box);
-                        });
+        one.isInLayer =
+            one.isInLayer || !movers ||
+            std::any_of(movers->begin(), movers->end(), [&](const extract::SweptBox& mover) {
+                return extract::overlap(mover, one.box);
+            });
         if (one.isInLayer || !scene.hasParallax())
             continue;
         one.isDecal = decals.movesWithBackground(one.row);
@@ -334,16 +327,16 @@ std::vector<uint32_t> findLayerRows(
 
 BlendedLayer planBlendedLayer(
     const scene::World& world,
-    const SceneLayout& layout,
-    const ViewRequest& view,
+    const extract::SceneLayout& layout,
+    const extract::ViewRequest& view,
     const scene::ExposureMotion& motion,
-    const ExtractedFrame& frame,
+    const extract::ExtractedFrame& frame,
     std::span<const uint32_t> taken,
-    const LayerLimits& limits
+    const render::OverlayLimits& limits
 ) {
     if (taken.empty())
         return {};
     return LayerPlanner({world, layout, view, motion, frame, limits.hasLens}, limits).run(taken);
 }
 
-} // namespace shutter::extract
+} // namespace shutter::glass

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "render/lighting.glsl"
-#include "render/particle.glsl"
+#include "particles/particle.glsl"
 
 layout(location = 0) out vec2 outTextureUv;          // of a picture at one time; else not used
 layout(location = 1) flat out vec4 outShape;         // texture's level, softness in metres, share, segments

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::glass {
 
 class DecalSearch {
   public:
     /// \param scene must outlive this
-    explicit DecalSearch(const SweptScene& scene);
+    explicit DecalSearch(const extract::SweptScene& scene);
 
     /// Whether the static row's blended surfaces are seen within half a pixel of their background
     /// at all instants and from all places of the lens, as far as points of them show. False where
@@ -35,7 +35,7 @@ class DecalSearch {
     bool isOnGround(const math::dvec3& point);
     bool meets(uint32_t row, const math::dvec3& from, const math::dvec3& to);
 
-    const SweptScene& mScene;
+    const extract::SweptScene& mScene;
     math::dmat4 mPicture{1.0}; ///< picture space of the raster, from the world
     math::dvec3 mEye{0.0};
     math::dvec3 mForward{0.0};
@@ -44,4 +44,4 @@ class DecalSearch {
     size_t mTested = 0; ///< triangles
 };
 
-} // namespace shutter::extract
+} // namespace shutter::glass
