@@ -12,6 +12,7 @@
 #include <array>
 #include <span>
 #include <system_error>
+#include <thread>
 #include <type_traits>
 
 namespace shutter::gpu {
@@ -85,7 +86,18 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     return device;
 }
 
+core::TaskQueue& Device::pipelineQueue() {
+    // One core draws. Drivers have threads of their own, and a search takes much memory to compile.
+    constexpr unsigned kMostThreads = 4;
+    if (!mPipelineQueue)
+        mPipelineQueue.emplace(
+            std::clamp(std::max(std::thread::hardware_concurrency(), 1u) - 1, 1u, kMostThreads)
+        );
+    return *mPipelineQueue;
+}
+
 Device::~Device() {
+    mPipelineQueue.reset();
     if (mDevice) {
         if (!mIsAdopted)
             vkDeviceWaitIdle(mDevice);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/task_queue.h"
 #include "engine/gpu/device_select.h"
 #include "engine/gpu/kept_pipelines.h"
 #include "engine/gpu/vulkan.h"
@@ -188,6 +189,15 @@ class Device {
     /// As set in DeviceOptions. Only pipelines may be made on other threads.
     [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
 
+    /// Makes pipelines on few threads. It ends before the device.
+    [[nodiscard]] core::TaskQueue& pipelineQueue();
+
+    /// Pipelines that LazyPipeline has made or requested so far.
+    [[nodiscard]] uint32_t lazyPipelineCount() const { return mLazyPipelines; }
+
+    /// Counts one more.
+    void countLazyPipeline() { ++mLazyPipelines; }
+
     /// Writes the pipeline cache to disk, as the end of the device does: pipelines made so far are
     /// preserved even if the program crashes later.
     void savePipelineCache() const;
@@ -303,6 +313,8 @@ class Device {
     bool mHasDebugUtils = false;
     bool mControlsSubgroupSize = true;
     bool mMakesPipelinesAhead = false;
+    std::optional<core::TaskQueue> mPipelineQueue; ///< since a pipeline was requested of it
+    uint32_t mLazyPipelines = 0;
     Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
 namespace shutter::gpu {
@@ -368,7 +367,8 @@ void Pipeline::release() {
 }
 
 LazyPipeline::LazyPipeline(Device& device, std::function<Pipeline()> make)
-    : mMake(std::move(make)) {
+    : mDevice(&device), mMake(std::move(make)),
+      mPipeline(std::make_unique<std::optional<Pipeline>>()) {
     if (device.makesPipelinesAhead())
         prepare();
 }
@@ -380,30 +380,38 @@ LazyPipeline::LazyPipeline(Device& device, const RayPipelineDesc& desc)
     : LazyPipeline(device, [&device, desc] { return Pipeline(device, desc); }) {}
 
 LazyPipeline::~LazyPipeline() {
-    if (mUnderWay.valid())
-        mUnderWay.wait();
+    if (mTask)
+        mTask->drop();
 }
 
 void LazyPipeline::prepare() const {
-    if (mPipeline || mUnderWay.valid())
+    if (mTask || *mPipeline)
         return;
-    mUnderWay = std::async(std::launch::async, mMake);
+    mDevice->countLazyPipeline();
+    mTask = mDevice->pipelineQueue().add([make = mMake, made = mPipeline.get()] {
+        made->emplace(make());
+    });
 }
 
 bool LazyPipeline::isReady() const {
-    return mPipeline || (mUnderWay.valid() &&
-                         mUnderWay.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+    return mTask ? mTask->isDone() : mPipeline->has_value();
 }
 
 const Pipeline& LazyPipeline::get() const {
-    if (!mPipeline)
-        mPipeline.emplace(mUnderWay.valid() ? mUnderWay.get() : mMake());
-    return *mPipeline;
+    if (mTask) {
+        mTask->finish();
+        mTask.reset();
+    }
+    if (!*mPipeline) {
+        mDevice->countLazyPipeline();
+        mPipeline->emplace(mMake());
+    }
+    return **mPipeline;
 }
 
 Pipeline LazyPipeline::take() {
     (void)get();
-    return std::move(*mPipeline);
+    return std::move(**mPipeline);
 }
 
 } // namespace shutter::gpu

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/task_queue.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/vulkan.h"
 
 #include <cstdint>
 #include <functional>
-#include <future>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,18 +131,18 @@ class Pipeline {
 };
 
 /// A compute or ray-tracing pipeline that is created on first use or, on a device that makes
-/// pipelines ahead, on a background thread. Like all objects made from a device, it may be used by
-/// one thread only.
+/// pipelines ahead, by one of its few background threads. Like all objects made from a device, it
+/// may be used by one thread only.
 class LazyPipeline {
   public:
     LazyPipeline(Device& device, const ComputePipelineDesc& desc);
     LazyPipeline(Device& device, const RayPipelineDesc& desc);
-    /// Waits for what prepare() started.
+    /// Waits where a thread has begun to make it.
     ~LazyPipeline();
     LazyPipeline(LazyPipeline&&) noexcept = default;
     LazyPipeline& operator=(LazyPipeline&&) = delete;
 
-    /// Starts to create it on a background thread, unless that is done or in progress.
+    /// Requests it from Device::pipelineQueue(), unless that is done.
     void prepare() const;
     /// Whether get() returns at once.
     [[nodiscard]] bool isReady() const;
@@ -153,9 +154,10 @@ class LazyPipeline {
   private:
     LazyPipeline(Device& device, std::function<Pipeline()> make);
 
+    Device* mDevice;
     std::function<Pipeline()> mMake;
-    mutable std::future<Pipeline> mUnderWay; ///< of prepare(), until get()
-    mutable std::optional<Pipeline> mPipeline;
+    std::unique_ptr<std::optional<Pipeline>> mPipeline; ///< where mTask puts it, wherever this is
+    mutable std::shared_ptr<core::QueuedTask> mTask;    ///< of prepare(), until get()
 };
 
 } // namespace shutter::gpu

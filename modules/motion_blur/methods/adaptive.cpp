@@ -121,6 +121,7 @@ void AdaptivePasses::addTrace(
                 builder.read(rays.deformedBuffer, Access::ShaderRead);
             data.search = found.search;
             data.search.use(builder);
+            mTrace.prepare(data.search, data.search.isGeneral);
             data.listed = {
                 builder.read(found.listed.pixels, Access::StorageRead),
                 builder.read(found.listed.arguments, Access::IndirectRead)};

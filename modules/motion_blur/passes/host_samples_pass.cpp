@@ -120,6 +120,7 @@ void HostSamplesPass::addList(
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Searching& data) {
             data.use(builder, found);
+            mList.prepare(data.search, data.search.isGeneral);
             data.lists = {
                 builder.write(lists.samples, Access::StorageWrite),
                 builder.write(lists.answers, Access::StorageWrite),
@@ -211,6 +212,7 @@ void HostSamplesPass::addCollect(
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Searching& data) {
             data.use(builder, found);
+            mCollect.prepare(data.search, data.search.isGeneral);
             data.lists.samples = builder.read(lists.samples, Access::StorageRead);
             data.lists.answers = builder.read(lists.answers, Access::StorageRead);
             data.lists.first = builder.read(lists.first, Access::StorageRead);

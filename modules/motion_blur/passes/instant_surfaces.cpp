@@ -85,6 +85,7 @@ void InstantSurfacesPass::addOne(
         [&](graph::PassBuilder& builder, Data& data) {
             data.search = found.search;
             data.search.use(builder);
+            mPipelines.prepare(data.search, data.search.isGeneral);
             data.picture = builder.write(found.picture, Access::StorageWrite);
             data.surfaces = builder.write(begun, Access::StorageWrite);
         },

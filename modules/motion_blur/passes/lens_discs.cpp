@@ -47,6 +47,7 @@ graph::ImageHandle LensDiscs::add(
             [&](graph::PassBuilder& builder, Data& data) {
                 data.search = found.search;
                 data.search.use(builder);
+                mPipelines.prepare(data.search, data.search.isGeneral);
                 builder.read(points.counts, Access::StorageRead);
                 builder.read(points.points, Access::StorageRead);
                 builder.read(points.arguments, Access::IndirectRead);

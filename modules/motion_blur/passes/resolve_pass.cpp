@@ -43,7 +43,6 @@ constexpr uint32_t kWithParts = 4;
 constexpr uint32_t kWithEdges = 8;
 constexpr uint32_t kWithLens = 16;
 constexpr uint32_t kWithCrowds = 32;
-constexpr uint32_t kPipelineCount = 64;
 
 /// \param desc with constants 0 and 1, if it has any
 gpu::ComputePipelineDesc specialize(gpu::ComputePipelineDesc desc, uint32_t bits) {
@@ -207,12 +206,10 @@ gpu::BindingList SearchResources::bind(
 }
 
 SearchPipelines::SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc)
-    : mAlwaysHasParts(isSoftware(device)) {
-    for (uint32_t bits = 0; bits < kPipelineCount; ++bits)
-        mPipelines.emplace_back(device, specialize(desc, bits));
-}
+    : mDevice(device), mDesc(desc), mAlwaysHasParts(isSoftware(device)) {}
 
-const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool isGeneral) const {
+const gpu::LazyPipeline&
+SearchPipelines::find(const SearchResources& search, bool isGeneral) const {
     uint32_t bits = isGeneral ? kGeneral : 0;
     if (isGeneral && search.crowds.isValid())
         bits |= kWithCrowds;
@@ -228,7 +225,10 @@ const gpu::Pipeline& SearchPipelines::get(const SearchResources& search, bool is
         bits |= kWithEdges;
     if (search.hasLens)
         bits |= kWithLens;
-    return mPipelines.at(bits).get();
+    const auto known = mPipelines.find(bits);
+    if (known != mPipelines.end())
+        return known->second;
+    return mPipelines.try_emplace(bits, mDevice, specialize(mDesc, bits)).first->second;
 }
 
 ResolvePass::ResolvePass(gpu::Device& device, bool listsPixels)
@@ -436,6 +436,7 @@ void ResolvePass::addResolve(
         [&](graph::PassBuilder& builder, Data& data) {
             data.search = outputs.search;
             data.search.use(builder);
+            mResolve.prepare(data.search, isGeneral);
             data.blocks = {
                 builder.read(lists.blocks, Access::StorageRead),
                 builder.read(lists.arguments, Access::IndirectRead)};

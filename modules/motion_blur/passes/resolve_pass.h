@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace shutter::motion_blur {
@@ -58,14 +59,27 @@ class SearchPipelines {
     /// \param desc whose constants 2 to 7 are set here (resolved_layers.glsl)
     SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
 
+    /// Starts to make the pipeline on a device that makes pipelines ahead.
     /// \param isGeneral pixels of general tiles are searched (InstantMotions::isGeneral())
-    [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool isGeneral) const;
+    void prepare(const SearchResources& search, bool isGeneral) const {
+        (void)find(search, isGeneral);
+    }
+
+    [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool isGeneral) const {
+        return find(search, isGeneral).get();
+    }
 
   private:
+    [[nodiscard]] const gpu::LazyPipeline&
+    find(const SearchResources& search, bool isGeneral) const;
+
+    gpu::Device& mDevice;
+    gpu::ComputePipelineDesc mDesc;
     /// On software devices: Mesa's compiler makes a search of `courtyard` that takes 28.7 ms
     /// without the code for what deforms, and 25.4 with it.
     bool mAlwaysHasParts;
-    std::vector<gpu::LazyPipeline> mPipelines;
+    /// By what they are specialised for: of 64, a session uses two or three.
+    mutable std::map<uint32_t, gpu::LazyPipeline> mPipelines;
 };
 
 struct ResolvePassOutputs {
