@@ -168,11 +168,17 @@ struct DecideContext {
     const scene::ExposureMotion& motion; ///< of the view's exposure
     const extract::ExtractedFrame& frame;
     std::span<Overlay* const> overlays{};
-    mutable std::array<std::optional<std::vector<uint32_t>>, 2> found{}; ///< by findTakenRows()
 
-    /// Rows whose blended surfaces leave the raster for an effect with Needs::movingBlended, rising
+    struct TakenRows {
+        std::vector<uint32_t> rows;   ///< rising
+        std::vector<Overlay*> takers; ///< that draw them
+    };
+
+    mutable std::array<std::optional<TakenRows>, 2> found{}; ///< by findTakenRows()
+
+    /// Rows whose blended surfaces leave the raster for an effect with Needs::movingBlended
     /// (Overlay::findRows()); searched on the first call.
-    [[nodiscard]] const std::vector<uint32_t>& findTakenRows(bool usesLens) const;
+    [[nodiscard]] const TakenRows& findTakenRows(bool usesLens) const;
 };
 
 } // namespace shutter::render

@@ -27,7 +27,7 @@ struct Needs {
     /// Its picture shows the whole exposure: overlays are drawn over it, with their motion, and not
     /// into the raster; also where it does not run.
     core::Decision exposure{};
-    OverlayLimits overlays{}; ///< instants and findsInstants, with `exposure`
+    OverlayLimits overlays{}; ///< instants and findsInstants, with `exposure` or `movingBlended`
     bool usesLens = false;    ///< it draws all from many places of the camera's lens
     /// GBuffer::edgeSurface: colours are then those of one surface, otherwise the mean of all
     /// samples.

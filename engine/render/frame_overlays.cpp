@@ -72,8 +72,9 @@ uint32_t fitInstants(shader::InstantSurfaces wanted, uint64_t bytes) {
     return wanted.instantCount;
 }
 
-core::Status
-FrameOverlays::extract(std::span<Overlay* const> overlays, const OverlayExtract& source) {
+core::Status FrameOverlays::extract(
+    std::span<Overlay* const> overlays, const OverlayExtract& source, bool areTakers
+) {
     for (Overlay* overlay : overlays) {
         auto planned = overlay->extract(source);
         if (!planned)
@@ -85,6 +86,7 @@ FrameOverlays::extract(std::span<Overlay* const> overlays, const OverlayExtract&
         if (!plan.draws)
             continue;
         Drawn drawn{overlay, std::move(plan)};
+        drawn.isTaker = areTakers;
         if (drawn.plan.readsSurfaces)
             shareSurfaces(drawn);
         mDrawn.push_back(std::move(drawn));
@@ -124,12 +126,12 @@ void FrameOverlays::count(Counters& counters) const {
 
 graph::ImageHandle FrameOverlays::declare(
     OverlayContext context,
-    bool areTaken,
+    bool areTakers,
     std::span<const graph::BufferHandle> words,
     Explainer& explainer
 ) const {
     for (const Drawn& drawn : mDrawn) {
-        if (drawn.plan.isTaken != areTaken)
+        if (drawn.isTaker != areTakers)
             continue;
         context.surfaces.reset();
         if (drawn.plan.readsSurfaces)
@@ -146,7 +148,7 @@ void FrameOverlays::publishAlone(
 ) const {
     for (const Drawn& drawn : mDrawn) {
         const std::string name = drawn.overlay->name();
-        if (drawn.plan.isTaken || !intermediates.isWanted(name))
+        if (drawn.isTaker || !intermediates.isWanted(name))
             continue;
         explainer.declareOwned(
             context.graph,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The overlays of one frame: what they need of the effect below them, and their passes.
+// Overlays of one frame that are drawn at one place, in the raster or over an effect: what they
+// need of the effect below them, and their passes.
 #pragma once
 
 #include "engine/render/overlay.h"
@@ -12,9 +13,10 @@ namespace shutter::render {
 
 class FrameOverlays {
   public:
-    /// Calls extract() of all, in the order in which they are drawn. Error: the first of theirs.
+    /// Calls extract() of more, in the order in which they are drawn. Error: the first of theirs.
+    /// \param areTakers they draw taken rows
     [[nodiscard]] core::Status
-    extract(std::span<Overlay* const> overlays, const OverlayExtract& source);
+    extract(std::span<Overlay* const> overlays, const OverlayExtract& source, bool areTakers);
 
     /// None draws anything.
     [[nodiscard]] bool empty() const { return mDrawn.empty(); }
@@ -27,18 +29,17 @@ class FrameOverlays {
     /// Adds "... instants" and "... bytes" of those that are drawn at instants.
     void count(Counters& counters) const;
 
-    /// Declares those that draw taken rows, or the others.
+    /// Declares takers, or the others.
     /// \param words for each of surfaces()
     /// \return the picture with them
     [[nodiscard]] graph::ImageHandle declare(
         OverlayContext context,
-        bool areTaken,
+        bool areTakers,
         std::span<const graph::BufferHandle> words,
         Explainer& explainer
     ) const;
 
-    /// Publishes wanted intermediates of those that draw no taken rows. The raster's depth hides
-    /// them.
+    /// Publishes wanted intermediates of those that are no takers. The raster's depth hides them.
     void publishAlone(
         const OverlayContext& context, Intermediates& intermediates, Explainer& explainer
     ) const;
@@ -49,6 +50,7 @@ class FrameOverlays {
         OverlayPlan plan;
         size_t words = 0;     ///< index of mSurfaces, with plan.readsSurfaces
         bool isOwner = false; ///< of that
+        bool isTaker = false;
     };
 
     void shareSurfaces(Drawn& drawn);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures motion in a rendered picture, and limits it to CameraShutter::maxBlurPercent.
+#include "engine/render/motion_measures.h"
+
 #include "engine/extract/exposure_parts.h"
-#include "engine/render/renderer.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/shutter.h"
 
@@ -65,7 +65,7 @@ bool tightenCap(
 } // namespace
 
 core::Result<std::vector<float>>
-Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view) {
+MotionMeasures::drawMotion(const scene::World& world, const extract::ViewRequest& view) {
     FrameRequest request;
     request.view = view;
     request.view.instant.reset();
@@ -74,12 +74,13 @@ Renderer::drawMotion(const scene::World& world, const extract::ViewRequest& view
     if (!mLongestMotion)
         mLongestMotion.emplace(mDevice);
     Effect* const effect = &*mLongestMotion;
-    if (const auto seen = renderFrame(world, request, {.effects = std::span(&effect, 1)}); !seen)
+    if (const auto seen = mRenderer.renderFrame(world, request, {.effects = std::span(&effect, 1)});
+        !seen)
         return seen.error();
     return mLongestMotion->take();
 }
 
-core::Result<LongestPath> Renderer::measureLongestPath(
+core::Result<LongestPath> MotionMeasures::measureLongestPath(
     const scene::World& world,
     const extract::ViewRequest& view,
     std::span<const Overlay* const> overlays
@@ -87,11 +88,11 @@ core::Result<LongestPath> Renderer::measureLongestPath(
     LongestPath path;
     if (!(view.exposure.open < view.exposure.close))
         return path;
-    auto frame = extract::extractFrame(world, mScene.layout(), view);
+    auto frame = extract::extractFrame(world, mRenderer.scene().layout(), view);
     if (!frame)
         return frame.error();
     const extract::MotionParts parts =
-        extract::planMotionParts(world, mScene.layout(), frame.value(), view);
+        extract::planMotionParts(world, mRenderer.scene().layout(), frame.value(), view);
     path.px = parts.unseenPx;
     path.movesLight = parts.movesLight;
     for (uint32_t i = 0; i < parts.count; ++i) {
@@ -116,7 +117,7 @@ core::Result<LongestPath> Renderer::measureLongestPath(
 }
 
 core::Result<scene::MotionCap>
-Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
+MotionMeasures::measureCap(const scene::World& world, const extract::ViewRequest& view) {
     // A rotating mover's chord is not proportional to its angle: further iterations find the rest.
     constexpr int kMaxIterations = 4;
     const double percent = view.exposure.shutter.maxBlurPercent;
@@ -128,7 +129,7 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
     std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
     for (int i = 0; i < kMaxIterations; ++i) {
         request.exposure.cap = cap;
-        auto frame = extract::extractFrame(world, mScene.layout(), request);
+        auto frame = extract::extractFrame(world, mRenderer.scene().layout(), request);
         if (!frame)
             return frame.error();
         if (!uncapped)

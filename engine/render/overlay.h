@@ -25,15 +25,16 @@ struct OverlayExtract {
     const extract::FrameView& frameView; ///< of `view`
     const extract::ExtractedFrame& frame;
     std::span<const uint32_t> takenRows; ///< ExtractContext::takenRows
-    bool isOverExposure = false; ///< drawn over an effect's picture; else into the raster's colour
-    math::dvec2 jitterPx{0.0};   ///< of the colour that it is drawn on (ViewRequest::jitterPx)
-    OverlayLimits limits;        ///< of the effect
-    uint32_t slot = 0;           ///< of the frames in flight
+    /// Drawn over an effect's picture of the exposure; else into the raster's colour or, what draws
+    /// taken rows, over the picture of an effect without an exposure.
+    bool isOverExposure = false;
+    math::dvec2 jitterPx{0.0}; ///< of the colour that it is drawn on (ViewRequest::jitterPx)
+    OverlayLimits limits;      ///< of the effect
+    uint32_t slot = 0;         ///< of the frames in flight
 };
 
 struct OverlayPlan {
     bool draws = false;
-    bool isTaken = false; ///< it draws taken rows: its passes count as the effect's
     /// At which it is drawn, in a rectangle; no instants: as a whole.
     shader::InstantSurfaces instants{};
     bool readsSurfaces = false; ///< those visible at `instants`
@@ -73,8 +74,8 @@ class Overlay {
     /// Of the intermediate that shows it alone, over black.
     [[nodiscard]] virtual std::string name() const = 0;
 
-    /// Rows whose blended surfaces it draws in place of the raster, rising; asked for an effect
-    /// with Needs::movingBlended.
+    /// Rows whose blended surfaces it draws in place of the raster, over the picture of an effect
+    /// with Needs::movingBlended, rising; its passes then count as the effect's.
     [[nodiscard]] virtual std::vector<uint32_t>
     findRows(const DecideContext&, bool /*usesLens*/) const {
         return {};

@@ -7,12 +7,13 @@
 #include "engine/extract/demand.h"
 #include "engine/extract/frame_view.h"
 #include "engine/extract/instance_masks.h"
+#include "engine/extract/raster_record.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/math/lens_tables.h"
 
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 
@@ -107,14 +108,8 @@ VkDeviceAddress Renderer::declareTlas(
     return levels.movingTlas;
 }
 
-core::Result<FrameOverlays> Renderer::extractOverlays(
-    const ExtractContext& context, std::span<Overlay* const> overlays, const RunningEffects& running
-) const {
-    FrameOverlays extracted;
-    const bool isOver = running.exposure.run;
-    // Effects store no history of pictures with overlays.
-    if (isOver && !context.facts.pictureWanted)
-        return extracted;
+OverlayExtract
+Renderer::describeOverlays(const ExtractContext& context, const FrameNeeds& needs) const {
     OverlayExtract source{
         .world = context.world,
         .layout = mScene.layout(),
@@ -122,19 +117,19 @@ core::Result<FrameOverlays> Renderer::extractOverlays(
         .frameView = mExtractor.view(),
         .frame = context.frame,
         .takenRows = context.takenRows,
-        .isOverExposure = isOver,
+        .isOverExposure = needs.exposure.run,
         .jitterPx = context.colorJitterPx,
-        .limits = running.limits,
+        .limits = needs.limits,
         .slot = context.slot};
     source.limits.surfaceBytes = mDevice.limits().maxStorageBufferRange;
     if (context.view.jitterPx != context.colorJitterPx)
         source.limits.leastInstants = kEdgeSamples;
-    SHUTTER_TRY(extracted.extract(overlays, source));
-    return extracted;
+    return source;
 }
 
-OverlayContext
-Renderer::makeOverlayContext(const FrameParts& parts, const DeclaredScene& scene, uint32_t slot) {
+OverlayContext Renderer::makeOverlayContext(
+    const FrameParts& parts, const DeclaredScene& scene, const math::dvec2& jitterPx
+) const {
     return {
         .graph = parts.graph,
         .view = parts.request.view,
@@ -144,8 +139,47 @@ Renderer::makeOverlayContext(const FrameParts& parts, const DeclaredScene& scene
         .shading = scene.rays.shading,
         .frameConstants = scene.tables.constants,
         .response = scene.tables.response,
-        .jitterPx = parts.overlayJitterPx,
-        .slot = slot};
+        .jitterPx = jitterPx,
+        .slot = mNextSlot};
+}
+
+core::Status Renderer::extractForEffects(
+    ExtractContext& context, const FrameNeeds& needs, std::span<ShadingFeature* const> shading
+) {
+    const extract::SceneLayout& layout = mScene.layout();
+    const std::vector<ecs::Entity> hidden = extract::listEntities(context.frame, needs.taken.rows);
+    // Nothing gathers the samples of static surfaces in these.
+    extract::ViewRequest view = extract::withoutStaticSamples(context.view);
+    view.samplesEdges = needs.samplesEdges; // as this frame is drawn
+    if (needs.secondRaster.run)
+        SHUTTER_TRY(mSecondRaster.use(context.slot)
+                        .extract(
+                            context.world,
+                            layout,
+                            makeViewOfOtherEnd(view),
+                            {shading, hidden, RasterKind::Second, context.slot}
+                        ));
+    if (needs.lastRaster.run) {
+        const auto before = extract::makeViewBefore(context.world, view, context.motion);
+        SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
+        SHUTTER_TRY(mLastRaster.use(context.slot)
+                        .extract(
+                            context.world,
+                            layout,
+                            *before,
+                            {shading, hidden, RasterKind::Last, context.slot}
+                        ));
+    }
+    for (const RunningEffect& one : needs.running) {
+        context.secondRaster.reset();
+        context.lastRaster.reset();
+        if (one.readsSecondRaster)
+            context.secondRaster = mSecondRaster.use(context.slot).extracted();
+        if (one.readsLastRaster)
+            context.lastRaster = mLastRaster.use(context.slot).extracted();
+        one.effect->extract(context);
+    }
+    return {};
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -219,14 +253,15 @@ core::Status Renderer::submitFrame(
         .facts = facts,
         .slot = pending.slot,
         .colorJitterPx = request.view.jitterPx};
-    RunningEffects running = joinNeeds(
+    const FrameNeeds needs = joinNeeds(
         {facts, world, mScene.layout(), request.view, context.motion, frame, features.overlays},
         effects,
         explainer
     );
-    context.takenRows = running.takenRows;
-    if (running.samplesEdges && facts.isDefocused)
-        running.confusion = math::confusionOf(extract::describeLens(
+    context.takenRows = needs.taken.rows;
+    math::vec2 confusion(0.0f);
+    if (needs.samplesEdges && facts.isDefocused)
+        confusion = math::confusionOf(extract::describeLens(
             context.motion,
             world.registry.get<scene::Camera>(request.view.camera),
             request.view,
@@ -234,15 +269,15 @@ core::Status Renderer::submitFrame(
         ));
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
-        explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
-        explainer.decide(ExplainedKind::Work, "rays at any time", running.timedRays);
-        explainer.decide(ExplainedKind::Work, "second raster", running.secondRaster);
-        explainer.decide(ExplainedKind::Work, "last raster", running.lastRaster);
-        explainer.decide(ExplainedKind::Work, "blended layer", running.layer);
+        explainer.decide(ExplainedKind::Work, "rays at the raster instant", needs.rays);
+        explainer.decide(ExplainedKind::Work, "rays at any time", needs.timedRays);
+        explainer.decide(ExplainedKind::Work, "second raster", needs.secondRaster);
+        explainer.decide(ExplainedKind::Work, "last raster", needs.lastRaster);
+        explainer.decide(ExplainedKind::Work, "blended layer", needs.layer);
     }
 
     std::optional<extract::TimedTables> moving;
-    if (running.timedRays.run) {
+    if (needs.timedRays.run) {
         auto computed = extract::computeTimedTables(world, mScene.layout(), request.view, frame);
         if (!computed)
             return computed.error();
@@ -263,20 +298,27 @@ core::Status Renderer::submitFrame(
         for (const Explanation& one : shading.value().explanations)
             explainer.decide(one.kind, one.subject, one.decision);
     }
-    core::Result<FrameOverlays> overlays = FrameOverlays();
-    if (!running.exposure.run) {
-        overlays = extractOverlays(context, features.overlays, running);
-        context.rasterHasOverlays = overlays && !overlays.value().empty();
+    std::vector<Overlay*> others(features.overlays.begin(), features.overlays.end());
+    for (const Overlay* taker : needs.taken.takers)
+        std::erase(others, taker);
+    FrameOverlays inRaster;
+    FrameOverlays over;
+    if (!needs.exposure.run)
+        SHUTTER_TRY(inRaster.extract(others, describeOverlays(context, needs), false));
+    context.rasterHasOverlays = !inRaster.empty();
+    SHUTTER_TRY(extractForEffects(context, needs, features.shading));
+    // Now the jitter of the effects' colour is known. Pictures with overlays are nobody's history.
+    if (request.wantPicture) {
+        const OverlayExtract source = describeOverlays(context, needs);
+        SHUTTER_TRY(over.extract(needs.taken.takers, source, true));
+        if (needs.exposure.run)
+            SHUTTER_TRY(over.extract(others, source, false));
+        over.count(statistics.counters);
     }
-    SHUTTER_TRY(extractForEffects(context, running, features.shading));
-    if (running.exposure.run) // the colour's jitter is known
-        overlays = extractOverlays(context, features.overlays, running);
-    if (!overlays)
-        return overlays.error();
     if (request.wantReasons)
-        for (const Explanation& one : overlays.value().explanations())
-            explainer.decide(one.kind, one.subject, one.decision);
-    overlays.value().count(statistics.counters);
+        for (const FrameOverlays* overlays : {&inRaster, &over})
+            for (const Explanation& one : overlays->explanations())
+                explainer.decide(one.kind, one.subject, one.decision);
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -288,9 +330,11 @@ core::Status Renderer::submitFrame(
          frame,
          shading.value(),
          moving ? &*moving : nullptr,
-         overlays.value(),
-         running.exposure.run ? context.colorJitterPx : request.view.jitterPx,
-         running,
+         inRaster,
+         over,
+         context.colorJitterPx,
+         needs,
+         confusion,
          explainer}
     );
     const auto fail = [&](const core::Error& error) {
@@ -318,18 +362,38 @@ core::Status Renderer::submitFrame(
     statistics.cpuMilliseconds = nowMilliseconds() - pending.startMilliseconds;
     statistics.transientBytes = mPool.heldBytes();
     statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
-    pending.effects = listPending(effects, running, plan.value());
+    for (Effect* effect : effects)
+        pending.effects.push_back({effect});
+    for (const EffectPasses& passes : pending.tickets.effects) {
+        const auto found = std::find(effects.begin(), effects.end(), passes.effect);
+        PendingEffect& one = pending.effects[size_t(found - effects.begin())];
+        one.ran = true;
+        for (size_t k = 0; k < plan.value().passes.size(); ++k)
+            if (plan.value().passes[k].pass >= passes.first &&
+                plan.value().passes[k].pass < passes.end)
+                one.times.push_back(k);
+    }
     pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
     if (!effects.empty() && !request.measuresMotion) {
-        releaseIdle(running);
+        releaseIdle(needs);
         for (ShadingFeature* feature : features.shading)
             feature->endFrame();
     }
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();
     return {};
+}
+
+void Renderer::releaseIdle(const FrameNeeds& needs) {
+    mDeformation.endFrame();
+    mFrameTlas.endFrame();
+    mTimedScene.endFrame();
+    mSecondRaster.endFrame();
+    mLastRaster.endFrame();
+    // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
+    mScene.releaseIdleBlas(needs.mayTrace || needs.timedRays.run);
 }
 
 FrameResult Renderer::finishFrame() {
@@ -372,7 +436,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     graph::Graph& graph = parts.graph;
     const FrameRequest& request = parts.request;
     const extract::ExtractedFrame& frame = parts.frame;
-    RunningEffects& running = parts.running;
+    const FrameNeeds& needs = parts.needs;
     const auto declareOwned = [&](PassOwner owner, const std::string& reason, const auto& declare) {
         return parts.explainer.declareOwned(parts.graph, owner, reason, declare);
     };
@@ -392,9 +456,9 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     mTlasMilliseconds = 0.0;
     std::vector<extract::RowMask> masks;
     VkDeviceAddress movingTlas = 0;
-    if (running.rays.run) {
+    if (needs.rays.run) {
         masks = extract::assignInstanceMasks(frame, mScene.layout());
-        movingTlas = declareOwned(PassOwner::Rays, running.rays.reason, [&] {
+        movingTlas = declareOwned(PassOwner::Rays, needs.rays.reason, [&] {
             return declareTlas(graph, {frame, masks}, scene.shapes, scene.rays);
         });
     }
@@ -402,14 +466,13 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     if (parts.moving != nullptr)
         extra = parts.moving->extra;
     const double start = nowMilliseconds();
-    mWritten =
-        parts.slot.tables.entities().update(frame, running.rays.run ? &masks : nullptr, extra);
+    mWritten = parts.slot.tables.entities().update(frame, needs.rays.run ? &masks : nullptr, extra);
     mTableMilliseconds = nowMilliseconds() - start;
     scene.tables = parts.slot.tables.upload(
         frame,
         request.view,
         mScene,
-        {.taken = running.takenRows,
+        {.taken = needs.taken.rows,
          .deformed = deformed,
          .slots = parts.shading.slots,
          .movingTlas = movingTlas}
@@ -419,7 +482,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
     if (parts.moving) {
-        scene.timedRays = declareOwned(PassOwner::Rays, running.timedRays.reason, [&] {
+        scene.timedRays = declareOwned(PassOwner::Rays, needs.timedRays.reason, [&] {
             return mTimedScene.use(mNextSlot).declare(
                 graph,
                 *parts.moving,
@@ -439,7 +502,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
         }));
     std::vector<graph::BufferHandle> reads = rays.shading;
     reads.push_back(scene.shapes.buffer);
-    const bool readsNormals = running.readsNormals || request.intermediates.contains(kNormals) ||
+    const bool readsNormals = needs.readsNormals || request.intermediates.contains(kNormals) ||
                               request.shownIntermediates.contains(kNormals);
     declareOwned(PassOwner::Scene, "the picture is drawn", [&] {
         scene.gbuffer = mGBufferPass.declare(
@@ -447,69 +510,67 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
             "G-buffer",
             {frame,
              mScene,
-             running.takenRows,
+             needs.taken.rows,
              reads,
              rays.frameConstants,
              listSlots(parts.shading.slots),
-             running.samplesEdges,
-             running.readsEdges,
+             needs.samplesEdges,
+             needs.readsEdges,
              readsNormals,
-             running.confusion}
+             parts.confusion}
         );
-        if (!running.exposure.run && !parts.overlays.empty()) {
-            OverlayContext context = makeOverlayContext(parts, scene, mNextSlot);
-            context.color = scene.gbuffer.color;
-            scene.gbuffer.color = parts.overlays.declare(context, false, {}, parts.explainer);
-        }
+        OverlayContext context = makeOverlayContext(parts, scene, request.view.jitterPx);
+        context.color = scene.gbuffer.color;
+        scene.gbuffer.color = parts.inRaster.declare(context, false, {}, parts.explainer);
     });
     return scene;
 }
 
-void Renderer::declareEffects(
+std::vector<Renderer::EffectPasses> Renderer::declareEffects(
     const FrameParts& parts, const DeclaredScene& scene, PictureContext& context
 ) {
     graph::Graph& graph = parts.graph;
-    RunningEffects& running = parts.running;
+    const FrameNeeds& needs = parts.needs;
     const auto declareOther = [&](PerSlot<OtherRaster>& rasters,
                                   const char* name,
                                   const Effect& reader,
                                   const core::Decision& decision) {
         return parts.explainer.declareOwned(graph, reader.owner(), decision.reason, [&] {
             return rasters.use(context.slot)
-                .declare(graph, name, mScene, mGBufferPass, running.readsEdges, running.confusion);
+                .declare(graph, name, mScene, mGBufferPass, needs.readsEdges, parts.confusion);
         });
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;
-    const auto declareOverlays = [&](bool areTaken) {
-        OverlayContext over = makeOverlayContext(parts, scene, context.slot);
+    const auto declareOverlays = [&](bool areTakers) {
+        OverlayContext over = makeOverlayContext(parts, scene, parts.overJitterPx);
         over.color = context.color;
         if (context.compositeParts)
             over.composite = &context.compositeParts;
-        context.color =
-            parts.overlays.declare(over, areTaken, context.surfaceWords, parts.explainer);
+        context.color = parts.over.declare(over, areTakers, context.surfaceWords, parts.explainer);
     };
     const auto declareOverEffects = [&](size_t effectsBefore) {
-        if (running.exposure.run && running.overlaysAt == effectsBefore)
-            parts.explainer.declareOwned(graph, PassOwner::Blur, running.exposure.reason, [&] {
+        if (needs.exposure.run && needs.overlaysAt == effectsBefore)
+            parts.explainer.declareOwned(graph, PassOwner::Blur, needs.exposure.reason, [&] {
                 declareOverlays(false);
             });
     };
+    std::vector<EffectPasses> passes;
     declareOverEffects(0);
-    for (RunningEffect& one : running.effects) {
+    for (const RunningEffect& one : needs.running) {
         // Not counted as the effect's own: the cost of an occasional frame does not predict later
         // frames, which the budget is for.
         if (one.readsLastRaster && !last)
-            last = declareOther(mLastRaster, "last G-buffer", *one.effect, running.lastRaster);
-        one.firstPass = graph.passes().size();
+            last = declareOther(mLastRaster, "last G-buffer", *one.effect, needs.lastRaster);
+        EffectPasses& own = passes.emplace_back(one.effect, graph.passes().size());
         if (one.readsSecondRaster && !second)
             second =
-                declareOther(mSecondRaster, "second G-buffer", *one.effect, running.secondRaster);
+                declareOther(mSecondRaster, "second G-buffer", *one.effect, needs.secondRaster);
         context.secondRaster = one.readsSecondRaster ? &*second : nullptr;
         context.lastRaster = one.readsLastRaster ? &*last : nullptr;
         context.surfaces = {};
         if (one.isBelowOverlays)
-            context.surfaces = parts.overlays.surfaces();
+            context.surfaces = parts.over.surfaces();
         parts.explainer.declareOwned(graph, one.effect->owner(), one.effect->name() + " runs", [&] {
             one.effect->declare(context);
             SHUTTER_CHECK(
@@ -520,23 +581,27 @@ void Renderer::declareEffects(
             if (one.isBelowOverlays)
                 declareOverlays(true);
         });
-        one.endPass = graph.passes().size();
-        declareOverEffects(static_cast<size_t>(&one - running.effects.data()) + 1);
+        own.end = graph.passes().size();
+        declareOverEffects(passes.size());
     }
+    return passes;
 }
 
 Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
     graph::Graph& graph = parts.graph;
     const FrameRequest& request = parts.request;
     const extract::ExtractedFrame& frame = parts.frame;
-    RunningEffects& running = parts.running;
+    const FrameNeeds& needs = parts.needs;
     const DeclaredScene scene = declareScene(parts);
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
     Intermediates intermediates(std::move(wanted));
     publishGBuffer(scene.gbuffer, intermediates);
-    parts.overlays.publishAlone(
-        makeOverlayContext(parts, scene, mNextSlot), intermediates, parts.explainer
+    parts.inRaster.publishAlone(
+        makeOverlayContext(parts, scene, request.view.jitterPx), intermediates, parts.explainer
+    );
+    parts.over.publishAlone(
+        makeOverlayContext(parts, scene, parts.overJitterPx), intermediates, parts.explainer
     );
     PictureContext context{
         .graph = graph,
@@ -545,20 +610,21 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .shapes = scene.shapes,
         .facts = parts.facts,
         .gbuffer = scene.gbuffer,
-        .rays = running.rays.run ? &scene.rays : nullptr,
+        .rays = needs.rays.run ? &scene.rays : nullptr,
         .timedRays = parts.moving ? &scene.timedRays : nullptr,
         .color = scene.gbuffer.color,
         .intermediates = intermediates,
-        .takenRows = running.takenRows,
+        .takenRows = needs.taken.rows,
         .shading = scene.rays.shading,
         .response = scene.tables.response,
         .frameConstants = scene.tables.constants,
         .constantValues = &scene.tables.constantValues,
         .explainer = parts.explainer,
         .slot = mNextSlot};
-    declareEffects(parts, scene, context);
+    std::vector<EffectPasses> passes = declareEffects(parts, scene, context);
     return parts.explainer.declareOwned(graph, PassOwner::Display, kReadBack, [&] {
         Tickets tickets;
+        tickets.effects = std::move(passes);
         tickets.semaphores = context.semaphores;
         for (const auto& [name, image] : intermediates.images())
             if (request.intermediates.contains(name))

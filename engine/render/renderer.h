@@ -12,11 +12,11 @@
 #include "engine/rays/timed_scene.h"
 #include "engine/rays/tlas.h"
 #include "engine/render/effect.h"
+#include "engine/render/frame_needs.h"
 #include "engine/render/frame_overlays.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
-#include "engine/render/longest_motion.h"
 #include "engine/render/other_raster.h"
 #include "engine/render/pass_trace.h"
 #include "engine/render/per_slot.h"
@@ -79,15 +79,6 @@ struct FrameResult {
     std::vector<WrittenImage> trace;
 };
 
-/// Longest motion in a picture during its exposure.
-struct LongestPath {
-    /// Longest motion in the picture of a visible point or of a shadow caster, which need not be
-    /// visible; pixels. 0: nothing moves.
-    double px = 0.0;
-    bool movesLight = false;  ///< one that lights the picture does
-    bool hasFleeting = false; ///< something appears, disappears or changes its colour
-};
-
 /// Draws frames of one world's assets; features are the caller's. Frames are submitted and finished
 /// in order: sequentially with one frame in flight, with more the CPU runs ahead of the GPU.
 class Renderer {
@@ -114,60 +105,23 @@ class Renderer {
     [[nodiscard]] core::Result<FrameResult>
     renderFrame(const scene::World& world, const FrameRequest& request, const FeatureSet& features);
 
-    /// Measures the shares of motion that remain under the view's cap
-    /// (CameraShutter::maxBlurPercent): pass them to ExposureInterval::cap of everything drawn of
-    /// this exposure. Draws the raster image up to four times; draws nothing without a cap.
-    [[nodiscard]] core::Result<scene::MotionCap>
-    measureMotionCap(const scene::World& world, const extract::ViewRequest& view);
-
-    /// Measures the motion of the picture's points in the exposure. Measured on raster images, one
-    /// for each part of the exposure (extract::planMotionParts); nothing is drawn where nothing
-    /// moves.
-    [[nodiscard]] core::Result<LongestPath> measureLongestPath(
-        const scene::World& world,
-        const extract::ViewRequest& view,
-        std::span<const Overlay* const> overlays
-    );
-
     [[nodiscard]] const gpu_scene::GpuScene& scene() const { return mScene; }
 
   private:
-    /// What of a frame is read back: Readback's tickets.
+    /// Passes of an effect: indices into Graph::passes().
+    struct EffectPasses {
+        Effect* effect = nullptr;
+        size_t first = 0;
+        size_t end = 0;
+    };
+
+    /// What is taken of a frame: Readback's tickets, and whose its passes are.
     struct Tickets {
+        std::vector<EffectPasses> effects; ///< of those that run
         std::optional<size_t> color;
         std::optional<size_t> display;
         std::map<std::string, size_t> intermediates;
         gpu::SubmitSemaphores semaphores; ///< of the submission
-    };
-
-    struct RunningEffect {
-        Effect* effect = nullptr;
-        bool readsSecondRaster = false;
-        bool readsLastRaster = false;
-        bool isBelowOverlays = false;
-        size_t firstPass = 0; ///< its own passes: indices into Graph::passes()
-        size_t endPass = 0;
-    };
-
-    /// The effects of a frame that run, and what rays they trace.
-    struct RunningEffects {
-        std::vector<RunningEffect> effects;
-        core::Decision rays;
-        core::Decision timedRays;
-        core::Decision secondRaster;
-        core::Decision lastRaster;
-        core::Decision layer;
-        std::vector<uint32_t> takenRows; ///< ExtractContext::takenRows
-        bool mayTrace = false;           ///< in another frame, if not in this
-        bool samplesEdges = false;       ///< the frame is drawn with several samples per pixel
-        bool readsEdges = false;         ///< Needs::edges of one of them
-        bool readsNormals = false;       ///< Needs::normals likewise
-        /// GBufferPass::Source::confusion.
-        math::vec2 confusion{0.0f};
-        /// Needs::exposure; run: overlays are drawn after as many of the effects as overlaysAt.
-        core::Decision exposure;
-        size_t overlaysAt = 0;
-        OverlayLimits limits; ///< of the effect below them, if that runs
     };
 
     /// The extracted frame, and the view that it was drawn for.
@@ -195,9 +149,11 @@ class Renderer {
         const extract::ExtractedFrame& frame;
         const RasterShading& shading;       ///< of the own raster
         const extract::TimedTables* moving; ///< null: no time-sampled rays
-        const FrameOverlays& overlays;
-        math::dvec2 overlayJitterPx; ///< of the colour that they are drawn on
-        RunningEffects& running;
+        const FrameOverlays& inRaster;      ///< overlays that are drawn into its colour
+        const FrameOverlays& over;          ///< over an effect's picture
+        math::dvec2 overJitterPx;           ///< of that
+        const FrameNeeds& needs;
+        math::vec2 confusion; ///< GBufferPass::Source::confusion
         Explainer& explainer;
     };
 
@@ -228,42 +184,27 @@ class Renderer {
         FrameResult result;            ///< results that do not depend on the GPU
     };
 
-    /// Draws the view's motion in a separate frame. \return pixels from open to close, one number
-    /// per row, then the sky's
-    core::Result<std::vector<float>>
-    drawMotion(const scene::World& world, const extract::ViewRequest& view);
     /// Extracts a frame. Under a lens that spreads something, no samples of static surfaces are
     /// gathered: each frame has several per pixel instead, so that a static picture does not change
     /// from frame to frame, and bright points keep their light.
     [[nodiscard]] core::Result<OwnFrame>
     extractOwn(const scene::World& world, const extract::ViewRequest& view, bool hasEffects);
-    /// Joins what the effects of a frame need.
-    static RunningEffects
-    joinNeeds(const DecideContext& context, std::span<Effect* const> effects, Explainer& explainer);
     /// Extracts the additional rasters of the running effects and calls their extract().
     [[nodiscard]] core::Status extractForEffects(
-        ExtractContext& context,
-        const RunningEffects& running,
-        std::span<ShadingFeature* const> shading
+        ExtractContext& context, const FrameNeeds& needs, std::span<ShadingFeature* const> shading
     );
-    /// Extracts the overlays that the frame draws.
-    [[nodiscard]] core::Result<FrameOverlays> extractOverlays(
-        const ExtractContext& context,
-        std::span<Overlay* const> overlays,
-        const RunningEffects& running
+    [[nodiscard]] OverlayExtract
+    describeOverlays(const ExtractContext& context, const FrameNeeds& needs) const;
+    [[nodiscard]] OverlayContext makeOverlayContext(
+        const FrameParts& parts, const DeclaredScene& scene, const math::dvec2& jitterPx
     ) const;
-    static OverlayContext
-    makeOverlayContext(const FrameParts& parts, const DeclaredScene& scene, uint32_t slot);
     Tickets declareFrame(const FrameParts& parts);
     /// All up to the frame's own G-buffer.
     DeclaredScene declareScene(const FrameParts& parts);
-    void
+    [[nodiscard]] std::vector<EffectPasses>
     declareEffects(const FrameParts& parts, const DeclaredScene& scene, PictureContext& context);
-    static std::vector<PendingEffect> listPending(
-        std::span<Effect* const> effects, const RunningEffects& running, const graph::Plan& plan
-    );
     /// Frees resources that no frame used for a while.
-    void releaseIdle(const RunningEffects& running);
+    void releaseIdle(const FrameNeeds& needs);
 
     /// \return the address for FrameConstants::movingTlas
     VkDeviceAddress declareTlas(
@@ -287,8 +228,7 @@ class Renderer {
     PerSlot<rays::TimedScene> mTimedScene;
     PerSlot<OtherRaster> mSecondRaster;
     PerSlot<OtherRaster> mLastRaster;
-    std::deque<PendingFrame> mPending;           ///< oldest first
-    std::optional<LongestMotion> mLongestMotion; ///< made by the first cap
+    std::deque<PendingFrame> mPending; ///< oldest first
     // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;

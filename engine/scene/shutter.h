@@ -69,7 +69,7 @@ struct ExposureInterval {
     double rasterTime = 1.0;
     double frameSeconds = 0.0; ///< since the previous frame, 0 or more
     CameraShutter shutter{};
-    MotionCap cap{}; ///< of this frame; Renderer::measureMotionCap() finds it
+    MotionCap cap{}; ///< of this frame; render::MotionMeasures::measureCap() finds it
     /// Times of the whole exposure, if this is a part of one (takePart()); nothing: this is all of
     /// it.
     std::optional<ExposureTimes> whole{};

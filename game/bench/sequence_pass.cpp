@@ -100,6 +100,12 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wa
     picture.frame.wantColor = wantLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&mTonemap};
+    if (drawer.options.maxStepPx) {
+        auto instants = drawer.drawer->findInstants(mSource.world(), picture);
+        if (!instants)
+            return instants.error();
+        picture.instants = std::move(instants).value();
+    }
     return drawer.drawer->draw(mSource.world(), picture);
 }
 

@@ -73,7 +73,8 @@ PictureRequest makePicture(
 }
 
 PictureDrawer::PictureDrawer(gpu::Device& device, render::Renderer& renderer)
-    : mDevice(device), mRenderer(renderer), mFeatures(device, renderer.scene()) {}
+    : mDevice(device), mRenderer(renderer), mMeasures(device, renderer),
+      mFeatures(device, renderer.scene()) {}
 
 PictureDrawer::~PictureDrawer() {
     try {

@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/extract/exposure_parts.h"
+#include "engine/render/motion_measures.h"
 #include "engine/render/renderer.h"
 #include "game/shot/picture_features.h"
 #include "game/shot/shot.h"
@@ -36,7 +37,7 @@ struct InstantChoice {
     std::string reason;  ///< a clause
 };
 
-/// Instants of a frame in which a light moves or particles flash, at least: that moves no point,
+/// Instants of a frame in which a light moves or something flashes, at least: that moves no point,
 /// but colours change.
 inline constexpr uint32_t kMinInstantsOfLight = 16;
 
@@ -140,6 +141,11 @@ class PictureDrawer {
     /// if there is a cap to measure.
     [[nodiscard]] core::Result<scene::MotionCap>
     measureCap(const scene::World& world, const extract::ViewRequest& view);
+
+    /// Chooses the instants of a picture with MethodOptions::maxStepPx (PictureRequest::instants).
+    /// Finishes all frames.
+    [[nodiscard]] core::Result<InstantChoice>
+    findInstants(const scene::World& world, const PictureRequest& request);
 
     /// Draws a picture and waits for it; none may be unfinished (CHECKed).
     /// \param checkpoints truth only; other methods draw none
@@ -266,6 +272,7 @@ class PictureDrawer {
 
     gpu::Device& mDevice;
     render::Renderer& mRenderer;
+    render::MotionMeasures mMeasures;
     PictureFeatures mFeatures;
     std::array<Slot, kSlots> mSlots;
     std::deque<Label> mLabels; ///< of the renderer's unfinished frames

@@ -253,7 +253,7 @@ core::Status PictureDrawer::submitFrameBefore(
     before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
     std::vector<render::Effect*> effects{prepareTaa(request)};
-    // In each frame: particles that the method draws itself must not be accumulated as static.
+    // In each frame: what the method draws itself must not be accumulated as static.
     if (usesFrameBefore(request.method))
         for (render::Effect* effect : prepareBlurs(request, {}))
             effects.push_back(effect);

@@ -92,9 +92,10 @@ InstantChoice chooseInstants(const render::LongestPath& path, double maxStepPx, 
             "the longest way is {:.1f} px, {:.2f} px from one to the next", path.px, choice.stepPx
         );
     else
-        choice.reason = path.movesLight    ? "only light moves"
-                        : path.hasFleeting ? "only particles come, go or change their colour"
-                                           : "nothing moves";
+        choice.reason = path.movesLight ? "only light moves"
+                        : path.hasFleeting
+                            ? "nothing moves, but something comes, goes or changes its colour"
+                            : "nothing moves";
     return choice;
 }
 
@@ -130,17 +131,24 @@ std::vector<extract::ExposurePart> PictureDrawer::planExposure(
     return extract::planExposureParts(world, mRenderer.scene().layout(), view);
 }
 
+core::Result<InstantChoice>
+PictureDrawer::findInstants(const scene::World& world, const PictureRequest& request) {
+    finishUntil(0); // measuring draws additional frames
+    mFeatures.configure(request.features);
+    const auto path =
+        mMeasures.measureLongestPath(world, request.frame.view, mFeatures.listWith({}).overlays);
+    if (!path)
+        return path.error();
+    return chooseInstants(path.value(), *request.method.maxStepPx, request.method.samples);
+}
+
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
     SHUTTER_CHECK(!request.frame.view.usesLens, "a step by motion knows nothing of a lens");
     if (!request.instants) {
-        finishUntil(0); // measuring draws additional frames
-        const auto path = mRenderer.measureLongestPath(
-            world, request.frame.view, mFeatures.listWith({}).overlays
-        );
-        if (!path)
-            return path.error();
-        request.instants =
-            chooseInstants(path.value(), *request.method.maxStepPx, request.method.samples);
+        auto found = findInstants(world, request);
+        if (!found)
+            return found.error();
+        request.instants = std::move(found).value();
         if (request.instants->stepPx > *request.method.maxStepPx * (1.0 + 1.0e-9))
             core::logWarning(
                 "frame at {} s: {} instants are {:.2f} px apart, not {} (--samples allows more)",
@@ -165,7 +173,7 @@ PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest&
         if (!parts.empty())
             capped.exposure = parts.back().exposure;
     }
-    return mRenderer.measureMotionCap(world, capped);
+    return mMeasures.measureCap(world, capped);
 }
 
 core::Status PictureDrawer::check(

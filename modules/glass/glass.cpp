@@ -14,8 +14,6 @@ std::vector<uint32_t> Glass::findRows(const render::DecideContext& context, bool
 core::Result<render::OverlayPlan> Glass::extract(const render::OverlayExtract& source) {
     BlendedLayer& layer = mLayers.at(source.slot);
     layer = {};
-    if (!source.isOverExposure)
-        return render::OverlayPlan{}; // the raster draws it
     extract::ViewRequest view = source.view;
     view.jitterPx = source.jitterPx;
     layer = planBlendedLayer(
@@ -35,7 +33,6 @@ core::Result<render::OverlayPlan> Glass::extract(const render::OverlayExtract& s
     const uint64_t perPixel = layer.partCount > 1 ? 24 : 16;
     return render::OverlayPlan{
         .draws = true,
-        .isTaken = true,
         .instants = rectangle,
         .readsSurfaces = layer.readsInstants,
         .imageBytes = perPixel * allocated.x * allocated.y,

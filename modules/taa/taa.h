@@ -33,16 +33,16 @@ makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 /// frames in which it was visible; then it does not change, even while something moves in front.
 /// Sums do not depend on the frames' order, so a sequence that resumes has the same bits where
 /// nothing has moved in front or changed since it settled. In frames in which static surfaces may
-/// differ (another light; with a ShadingFeature or glass, an entity that appears, disappears,
-/// starts or stops; particles, moving glass, tiles of kSlotChanging) it is clipped to the variance
-/// of the neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal Supersampling"), mixed as
-/// Karis 2014 ("High Quality Temporal Supersampling"). Movers have one sample at the pixel's centre
-/// and no history: motion blur smooths it, and reprojected history is farther from the mean over
-/// the pixel than none (docs/anti_aliasing.md). Where a lens spreads something, nothing has: what
-/// is out of focus has several samples per pixel instead. Runs on the linear picture before the
-/// motion blur. The view must be one of makeJittered(); afterwards its colour has no jitter
-/// (ExtractContext::colorJitterPx), other images of the raster remain jittered where the surface is
-/// static. Memory: 20 bytes per pixel: sum, count and row.
+/// differ (another light; with a ShadingFeature or blended surfaces, an entity that appears,
+/// disappears, starts or stops; an overlay, a blended mover, tiles of kSlotChanging) it is clipped
+/// to the variance of the neighbourhood in YCoCg (Salvi 2016, "An Excursion in Temporal
+/// Supersampling"), mixed as Karis 2014 ("High Quality Temporal Supersampling"). Movers have one
+/// sample at the pixel's centre and no history: motion blur smooths it, and reprojected history is
+/// farther from the mean over the pixel than none (docs/anti_aliasing.md). Where a lens spreads
+/// something, nothing has: what is out of focus has several samples per pixel instead. Runs on the
+/// linear picture before the motion blur. The view must be one of makeJittered(); afterwards its
+/// colour has no jitter (ExtractContext::colorJitterPx), other images of the raster remain jittered
+/// where the surface is static. Memory: 20 bytes per pixel: sum, count and row.
 class Taa : public render::Effect {
   public:
     explicit Taa(gpu::Device& device);

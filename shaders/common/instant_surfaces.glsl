@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `resolved` leaves of a rectangle of the picture for blended surfaces and particles over it:
+// What `resolved` leaves of a rectangle of the picture for overlays over it:
 // the depth that each pixel saw at some instants of the exposure, and the colours of its parts. A
 // buffer: an InstantSurfaces, then words of 32 bits.
 #ifndef SHUTTER_INSTANT_SURFACES_GLSL

@@ -129,7 +129,7 @@ core::Decision MotionBlurPlugin::decideLastRaster(
         return {false, kNoPicture};
     std::span<const uint32_t> taken;
     if (needs.movingBlended.run)
-        taken = context.findTakenRows(needs.usesLens);
+        taken = context.findTakenRows(needs.usesLens).rows;
     if (mInstantMotions.holdsFrameBefore(context, taken))
         return {false, "the frame before left its own"};
     if (!extract::makeViewBefore(context.world, context.view, context.motion))

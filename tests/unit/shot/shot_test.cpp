@@ -209,7 +209,7 @@ TEST(Instants, AStaticFrameTakesOneInstantAndAMovingLightOrAFlashSome) {
     EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
     const InstantChoice flash = chooseInstants({0.0, false, true}, 1.0, 1024);
     EXPECT_EQ(flash.count, kMinInstantsOfLight);
-    EXPECT_EQ(flash.reason, "only particles come, go or change their colour");
+    EXPECT_EQ(flash.reason, "nothing moves, but something comes, goes or changes its colour");
 }
 
 TEST(Instants, InstantsAreNoFartherApartThanTheStepUpToTheMaximum) {
