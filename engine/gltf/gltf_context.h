@@ -5,6 +5,7 @@
 // buffer or an image.
 #pragma once
 
+#include "engine/gltf/extras.h"
 #include "engine/gltf/gltf_document.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/assets.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,8 +67,9 @@ struct GltfContext {
     const GltfResources& resources;
     GltfWarnings& warnings;
     const GltfLimits& limits;
-    /// Assets::textures of the file's textures that particles show (loadMaterials).
-    std::map<uint32_t, scene::AssetIndex> particleTextures{};
+    std::span<const ExtraReader> readers;
+    /// Assets::textures of the file's textures that `readers` name (loadMaterials).
+    std::map<uint32_t, scene::AssetIndex> looseTextures{};
     uint64_t vertexBytes = 0; ///< spent, of limits.maxVertexBytes
     uint64_t imageBytes = 0;  ///< spent, of limits.maxImageBytes
 

@@ -37,7 +37,7 @@ struct OwnExtra {
 };
 
 constexpr OwnExtra kOwnExtras[] = {
-    {"lens", "camera"}, {"motionBlur", "node"}, {"vertexWaves", "node"}, {"particles", "node"}};
+    {"lens", "camera"}, {"motionBlur", "node"}, {"vertexWaves", "node"}};
 
 bool areEqualExceptForCase(std::string_view a, std::string_view b) {
     return std::equal(
@@ -61,8 +61,11 @@ void warnOfMisplacedExtras(
 ) {
     if (!extras.IsObject())
         return;
+    std::vector<OwnExtra> all(std::begin(kOwnExtras), std::end(kOwnExtras));
+    for (const ExtraReader& reader : context.readers)
+        all.push_back({reader.name, "node"});
     for (const std::string& key : extras.Keys())
-        for (const OwnExtra& own : kOwnExtras)
+        for (const OwnExtra& own : all)
             if (areEqualExceptForCase(key, own.name) && (key != own.name || parent != own.parent) &&
                 extras.Get(key).IsObject())
                 context.warnings.add(fmt::format(
@@ -88,7 +91,10 @@ void warnOfMisplacedExtras(GltfContext& context) {
 
 /// Throws GltfError and whatever the libraries throw.
 LoadedScene buildScene(
-    const std::filesystem::path& folder, std::span<const uint8_t> bytes, const GltfLimits& limits
+    const std::filesystem::path& folder,
+    std::span<const uint8_t> bytes,
+    const GltfLimits& limits,
+    std::span<const ExtraReader> readers
 ) {
     const GltfChunks chunks = splitGltf(bytes);
     nlohmann::json root = parseGltfJson(chunks.json);
@@ -99,7 +105,7 @@ LoadedScene buildScene(
 
     LoadedScene loaded;
     GltfWarnings warnings;
-    GltfContext context{model, resources, warnings, limits};
+    GltfContext context{model, resources, warnings, limits, readers};
     checkAccessors(context);
     warnIgnoredExtensions(context);
     warnOfMisplacedExtras(context);
@@ -144,13 +150,16 @@ std::string hashUri(const std::filesystem::path& folder, const std::string& uri,
 
 } // namespace
 
-core::Result<LoadedScene>
-loadGltf(const std::filesystem::path& path, const GltfLimits& limits) try {
+core::Result<LoadedScene> loadGltf(
+    const std::filesystem::path& path,
+    const GltfLimits& limits,
+    std::span<const ExtraReader> readers
+) try {
     core::Result<std::vector<uint8_t>> bytes = io::readFileBytes(path, kMaxFileBytes);
     if (!bytes)
         return bytes.error();
     try {
-        return buildScene(path.parent_path(), bytes.value(), limits);
+        return buildScene(path.parent_path(), bytes.value(), limits, readers);
     } catch (const GltfError& e) {
         return core::makeError("cannot load '{}': {}", path.string(), e.what());
     } catch (const std::bad_alloc&) {

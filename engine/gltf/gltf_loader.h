@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/gltf/extras.h"
 #include "engine/io/uri.h"
 #include "engine/scene/world.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,12 @@ struct GltfLimits {
 /// Reads a glTF 2.0 file, .gltf or .glb, distinguished by content. Error: names the file and the
 /// field that is not supported; engine/gltf/README.md lists the supported features. No partial
 /// results.
-[[nodiscard]] core::Result<LoadedScene>
-loadGltf(const std::filesystem::path& path, const GltfLimits& limits = {});
+/// \param readers of `extras` that this folder does not know
+[[nodiscard]] core::Result<LoadedScene> loadGltf(
+    const std::filesystem::path& path,
+    const GltfLimits& limits = {},
+    std::span<const ExtraReader> readers = {}
+);
 
 /// A hash (engine/io/file_bytes.h) that changes whenever the scene's file changes, or a buffer or
 /// image that it names. A named file that is missing changes the hash too. Error: the scene itself

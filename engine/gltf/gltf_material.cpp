@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 #include "engine/io/image_file.h"
@@ -247,6 +248,25 @@ class MaterialReader {
     std::string mPath;
 };
 
+/// The texture that the node's extras name, which the file has. Throws GltfError.
+std::optional<uint32_t>
+findLooseTexture(const GltfContext& context, size_t node, const ExtraReader& reader) {
+    if (reader.textureMember.empty())
+        return std::nullopt;
+    const std::string name(reader.name);
+    const std::string path = fmt::format("nodes[{}]", node);
+    const tinygltf::Value* object = findExtra(context.model.nodes[node].extras, name, path);
+    if (!object)
+        return std::nullopt;
+    const std::string at = fmt::format("{}.extras.{}", path, name);
+    const std::string member(reader.textureMember);
+    const std::optional<uint32_t> index = findIndex(*object, member, at);
+    const size_t count = context.model.textures.size();
+    if (index && *index >= count)
+        failGltf("{}.{} is {}, but {}", at, member, *index, core::thereAre(count, "texture"));
+    return index;
+}
+
 } // namespace
 
 scene::TextureImage decodeImage(const GltfContext& context, size_t index) {
@@ -273,15 +293,16 @@ void loadMaterials(GltfContext& context, scene::Assets& assets) {
     for (size_t i = 0; i < context.model.materials.size(); ++i) {
         assets.materials.push_back(MaterialReader(context, textures, i).read());
     }
-    for (size_t i = 0; i < context.model.nodes.size(); ++i) {
-        const auto index = findParticleTexture(context, i);
-        if (!index)
-            continue;
-        const AssetIndex texture = textures.addTexture(*index);
-        context.particleTextures[*index] = texture;
-        if (texture != kNone)
-            assets.textures[texture].onParticles = true;
-    }
+    for (size_t i = 0; i < context.model.nodes.size(); ++i)
+        for (const ExtraReader& reader : context.readers) {
+            const auto index = findLooseTexture(context, i, reader);
+            if (!index)
+                continue;
+            const AssetIndex texture = textures.addTexture(*index);
+            context.looseTextures[*index] = texture;
+            if (texture != kNone)
+                assets.textures[texture].isLoose = true;
+        }
 }
 
 } // namespace shutter::gltf

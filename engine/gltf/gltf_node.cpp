@@ -179,8 +179,11 @@ class NodeLoader {
         addWaves();
         addCamera();
         addLight();
-        if (auto particles = readParticles(mContext, mIndex))
-            mRegistry.add(mEntity, std::move(*particles));
+        for (const ExtraReader& reader : mContext.readers) {
+            const std::string name(reader.name);
+            if (const tinygltf::Value* object = findExtra(mNode.extras, name, mPath))
+                reader.read({mContext, *object, mPath + ".extras." + name}, mRegistry, mEntity);
+        }
     }
 
   private:

@@ -7,7 +7,6 @@
 #include "engine/math/transform.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/world.h"
 
 #include <optional>
@@ -18,9 +17,8 @@ namespace shutter::gltf {
 
 // --- Assets: materials, meshes, skins
 
-/// Fills Assets::materials (same indices as in the file), textures and images, those of particles
-/// too. Clamps factors
-/// outside the range that glTF gives them, with a warning.
+/// Fills Assets::materials (same indices as in the file), textures and images, those of
+/// GltfContext::readers too. Clamps factors outside the range that glTF gives them, with a warning.
 void loadMaterials(GltfContext& context, scene::Assets& assets);
 
 /// images[index], decoded. Throws GltfError when it cannot be.
@@ -106,14 +104,6 @@ readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::stri
 /// naming the member, for values of another type or range. \param path of the node
 [[nodiscard]] std::optional<scene::VertexWaves>
 readVertexWaves(GltfContext& context, const tinygltf::Node& node, const std::string& path);
-
-/// `extras.particles` of nodes[index] as a component, or nothing. Throws GltfError for a value that
-/// no emitter may have. Requires the materials.
-[[nodiscard]] std::optional<scene::ParticleEmitter>
-readParticles(GltfContext& context, size_t index);
-
-/// The texture that it names, which the file has. Throws GltfError.
-[[nodiscard]] std::optional<uint32_t> findParticleTexture(const GltfContext& context, size_t node);
 
 /// Translation, rotation and scale whose product is `matrix` to 1e-5 of its size, or nothing where
 /// the matrix shears or flattens an axis. A mirror becomes a negative x scale. Requires finite

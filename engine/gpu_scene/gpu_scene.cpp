@@ -103,7 +103,7 @@ std::vector<bool> findUsedTextures(const scene::Assets& assets) {
         use(material.emissiveTexture, true);
     }
     for (size_t i = 0; i < assets.textures.size(); ++i)
-        used[2 * i] = used[2 * i] || assets.textures[i].onParticles;
+        used[2 * i] = used[2 * i] || assets.textures[i].isLoose;
     return used;
 }
 

@@ -148,7 +148,7 @@ std::map<scene::AssetIndex, float> findMasks(const scene::Assets& assets) {
             others.insert(image);
     }
     for (const scene::Texture& texture : assets.textures)
-        if (texture.onParticles)
+        if (texture.isLoose)
             others.insert(texture.image);
     for (const scene::AssetIndex image : others)
         masks.erase(image);

@@ -11,7 +11,7 @@
 namespace shutter::gpu_scene {
 
 /// Images that are the base colour of materials of AlphaMode::Mask, and the alpha of the image that
-/// these compare with, in (0, 1]. Images that other surfaces or particles blend by their alpha, and
+/// these compare with, in (0, 1]. Images that anything else blends by their alpha, and
 /// those whose materials compare with different values, are left out; colours of vertices count as
 /// opaque.
 [[nodiscard]] std::map<scene::AssetIndex, float> findMasks(const scene::Assets& assets);

@@ -66,8 +66,8 @@ struct Texture {
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
     bool nearest = false; ///< magnification filter is NEAREST; otherwise linear with mip maps
-    /// Particles may show it (ParticleEmitter::texture), whether a material does or not.
-    bool onParticles = false;
+    /// It may be shown whether a material does or not.
+    bool isLoose = false;
 };
 
 /// A texture as a material refers to it, with KHR_texture_transform folded in.

@@ -2,7 +2,6 @@
 #include "engine/scene/recorded_motion.h"
 
 #include "engine/core/check.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/path.h"
 
 #include <algorithm>
@@ -62,16 +61,13 @@ void dropOutdated(std::vector<PathKey>& keys, double horizon) {
         keys.pop_back();
 }
 
-/// Returns how far back the entity's placement is needed: particles start from their emitter's
-/// placement at their birth.
+/// Returns how far back the entity's placement is needed.
 double findReach(const World& world, ecs::Entity entity) {
     double longest = 0.0;
-    for (auto [emitting, emitter] : world.registry.view<ParticleEmitter>()) {
-        const double life = findLongestLife(emitter);
-        if (life > longest &&
-            findUpwards(world, emitting, [&](ecs::Entity at) { return at == entity; }) == entity)
-            longest = life;
-    }
+    for (auto [carried, past] : world.registry.view<NeedsPast>())
+        if (past.seconds > longest &&
+            findUpwards(world, carried, [&](ecs::Entity at) { return at == entity; }) == entity)
+            longest = past.seconds;
     return kRecordedSeconds + longest;
 }
 

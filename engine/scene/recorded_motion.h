@@ -11,9 +11,13 @@
 namespace shutter::scene {
 
 /// How far back recorded motion reaches; at earlier times an entity has its oldest pose. Longer
-/// than any exposure of a film camera. Emitters of particles, and entities that carry them, record
-/// in addition the longest life of a particle.
+/// than any exposure of a film camera.
 inline constexpr double kRecordedSeconds = 0.5;
+
+/// Component: the motion of this entity, and of those that carry it, is recorded so much longer.
+struct NeedsPast {
+    double seconds = 0.0; ///< 0 or more
+};
 
 /// Component: when a pose was recorded last. Goes with a PathMotion of linear keys.
 struct RecordedMotion {

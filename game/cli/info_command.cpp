@@ -8,6 +8,7 @@
 #include "game/play/panel/play_settings.h"
 #include "game/shot/clips.h"
 #include "game/shot/methods.h"
+#include "game/shot/picture_features.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ core::Status printDevices() {
 }
 
 core::Status printScene(const std::string& path, io::Reach reach) {
-    auto loaded = gltf::loadGltf(path, {.reach = reach});
+    auto loaded = gltf::loadGltf(path, {.reach = reach}, listExtraReaders());
     if (!loaded)
         return loaded.error();
     const scene::World& world = loaded.value().world;

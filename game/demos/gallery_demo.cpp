@@ -69,7 +69,7 @@ ecs::Entity addFlash(scene::World& world, ecs::Entity ball, uint32_t seed) {
     const ecs::Entity flash = world.registry.create();
     world.registry.add(flash, scene::LocalTransform{});
     world.registry.add(flash, scene::Parent{ball});
-    world.registry.add(flash, makeFlash(seed));
+    particles::addEmitter(world.registry, flash, makeFlash(seed));
     return flash;
 }
 
@@ -99,7 +99,7 @@ GalleryDemo::GalleryDemo(scene::World loaded, const Nodes& nodes)
         const ecs::Entity ball = copyHidden(world(), mNodes.ball);
         const auto seed = static_cast<uint32_t>(i);
         world().registry.add(ball, Ball{.flash = addFlash(world(), ball, seed)});
-        world().registry.add(ball, makeSplinters(seed));
+        particles::addEmitter(world().registry, ball, makeSplinters(seed));
     }
     (void)game::simulate(world(), mNodes.shooter);
     (void)game::simulate(world(), mNodes.launcher);

@@ -34,7 +34,7 @@ void addPosts(scene::World& world, const std::vector<ecs::Entity>& entities) {
         Post post;
         post.rod.place = simulate(world, entity).transform.translation;
         world.registry.add(entity, post);
-        world.registry.add(entity, makeSparks(seed++));
+        particles::addEmitter(world.registry, entity, makeSparks(seed++));
     }
 }
 
@@ -95,7 +95,9 @@ RallyDemo::RallyDemo(
         // Wheels blur by their own motion, independent of the body's scale.
         world().registry.add(wheel.tyre, scene::MotionBlur{});
         if (!wheel.isFront)
-            world().registry.add(wheel.tyre, makeDust(static_cast<uint32_t>(wheel.tyre.index)));
+            particles::addEmitter(
+                world().registry, wheel.tyre, makeDust(static_cast<uint32_t>(wheel.tyre.index))
+            );
     }
     placeCar();
     recordStart();

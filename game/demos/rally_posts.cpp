@@ -119,7 +119,7 @@ int hitPosts(ecs::Registry& registry, CarState& car, double seconds) {
     for (auto [entity, post] : registry.view<Post>()) {
         if (!post.isStanding || !meets(car, post.rod))
             continue;
-        if (registry.has<scene::ParticleEmitter>(entity))
+        if (registry.has<particles::ParticleEmitter>(entity))
             burst(registry, entity, seconds, kSparksPerPost);
         post.isStanding = false;
         throwPost(post.rod, car);

@@ -16,19 +16,19 @@ constexpr dvec3 kFall{0.0, -9.81, 0.0};
 /// Exceeds the longest life, since frames need the past exposure and frame.
 constexpr double kKeptSeconds = 0.5;
 
-scene::ParticleEmitter& emitterOf(ecs::Registry& registry, ecs::Entity entity) {
-    return registry.get<scene::ParticleEmitter>(entity);
+particles::ParticleEmitter& emitterOf(ecs::Registry& registry, ecs::Entity entity) {
+    return registry.get<particles::ParticleEmitter>(entity);
 }
 
 /// What began so long ago is gone.
-double findForgotten(const scene::ParticleEmitter& emitter, double seconds) {
-    return seconds - scene::findLongestLife(emitter) - kKeptSeconds;
+double findForgotten(const particles::ParticleEmitter& emitter, double seconds) {
+    return seconds - particles::findLongestLife(emitter) - kKeptSeconds;
 }
 
 } // namespace
 
-scene::ParticleEmitter makeSparks(uint32_t seed) {
-    scene::ParticleEmitter sparks;
+particles::ParticleEmitter makeSparks(uint32_t seed) {
+    particles::ParticleEmitter sparks;
     sparks.lifeSeconds = 0.35;
     sparks.lifeSpread = 0.5;
     sparks.velocity = {0.0, 4.0, 0.0};
@@ -42,21 +42,21 @@ scene::ParticleEmitter makeSparks(uint32_t seed) {
     sparks.sizeDeath = 0.02;
     sparks.colors = {
         vec4(9.0f, 6.0f, 2.5f, 1.0f), vec4(6.0f, 2.2f, 0.5f, 1.0f), vec4(1.0f, 0.2f, 0.05f, 0.0f)};
-    sparks.blend = scene::ParticleBlend::Add;
+    sparks.blend = particles::ParticleBlend::Add;
     sparks.seed = seed;
     return sparks;
 }
 
-scene::ParticleEmitter makeBrakeSparks(uint32_t seed) {
-    scene::ParticleEmitter sparks = makeSparks(seed);
+particles::ParticleEmitter makeBrakeSparks(uint32_t seed) {
+    particles::ParticleEmitter sparks = makeSparks(seed);
     sparks.velocity = {5.0, 1.4, 0.0};
     sparks.coneDegrees = 22.0;
     sparks.radius = 0.06;
     return sparks;
 }
 
-scene::ParticleEmitter makeDust(uint32_t seed) {
-    scene::ParticleEmitter dust;
+particles::ParticleEmitter makeDust(uint32_t seed) {
+    particles::ParticleEmitter dust;
     dust.lifeSeconds = 0.9;
     dust.lifeSpread = 0.3;
     dust.velocity = {0.0, 0.9, 0.0};
@@ -77,8 +77,8 @@ scene::ParticleEmitter makeDust(uint32_t seed) {
     return dust;
 }
 
-scene::ParticleEmitter makeSplinters(uint32_t seed) {
-    scene::ParticleEmitter splinters;
+particles::ParticleEmitter makeSplinters(uint32_t seed) {
+    particles::ParticleEmitter splinters;
     splinters.lifeSeconds = 0.6;
     splinters.lifeSpread = 0.4;
     splinters.velocity = {0.0, 2.4, 0.0};
@@ -95,8 +95,8 @@ scene::ParticleEmitter makeSplinters(uint32_t seed) {
     return splinters;
 }
 
-scene::ParticleEmitter makeFlash(uint32_t seed) {
-    scene::ParticleEmitter flash;
+particles::ParticleEmitter makeFlash(uint32_t seed) {
+    particles::ParticleEmitter flash;
     flash.lifeSeconds = 0.07;
     flash.lifeSpread = 0.4;
     flash.velocity = {0.0, 7.0, 0.0};
@@ -108,25 +108,25 @@ scene::ParticleEmitter makeFlash(uint32_t seed) {
     flash.sizeDeath = 0.12;
     flash.colors = {
         vec4(12.0f, 9.0f, 5.0f, 1.0f), vec4(6.0f, 3.0f, 1.0f, 1.0f), vec4(1.0f, 0.4f, 0.1f, 0.0f)};
-    flash.blend = scene::ParticleBlend::Add;
+    flash.blend = particles::ParticleBlend::Add;
     flash.softMetres = 0.05;
     flash.seed = seed;
     return flash;
 }
 
 void burst(ecs::Registry& registry, ecs::Entity entity, double seconds, uint32_t count) {
-    scene::ParticleEmitter& emitter = emitterOf(registry, entity);
+    particles::ParticleEmitter& emitter = emitterOf(registry, entity);
     const double forgotten = findForgotten(emitter, seconds);
-    std::erase_if(emitter.bursts, [&](const scene::EmissionBurst& one) {
+    std::erase_if(emitter.bursts, [&](const particles::EmissionBurst& one) {
         return one.seconds < forgotten;
     });
     emitter.bursts.push_back({seconds, count});
 }
 
 void emitSteadily(ecs::Registry& registry, ecs::Entity entity, double seconds, double perSecond) {
-    scene::ParticleEmitter& emitter = emitterOf(registry, entity);
+    particles::ParticleEmitter& emitter = emitterOf(registry, entity);
     const double forgotten = findForgotten(emitter, seconds);
-    std::erase_if(emitter.spans, [&](const scene::EmissionSpan& span) {
+    std::erase_if(emitter.spans, [&](const particles::EmissionSpan& span) {
         return span.untilSeconds < forgotten;
     });
     if (perSecond <= 0.0)
@@ -135,7 +135,7 @@ void emitSteadily(ecs::Registry& registry, ecs::Entity entity, double seconds, d
     // Steps that follow one another are one span: a span is known by when it begins.
     constexpr double kSlack = 0.5 * kDemoStepSeconds;
     if (!emitter.spans.empty()) {
-        scene::EmissionSpan& last = emitter.spans.back();
+        particles::EmissionSpan& last = emitter.spans.back();
         if (last.untilSeconds > began - kSlack && last.perSecond == perSecond) {
             last.untilSeconds = seconds;
             return;

@@ -76,13 +76,13 @@ SpinDemo::SpinDemo(scene::World loaded, Parts parts)
 }
 
 ecs::Entity
-SpinDemo::addEmitter(ecs::Entity parent, const dvec3& place, scene::ParticleEmitter emitter) {
+SpinDemo::addEmitter(ecs::Entity parent, const dvec3& place, particles::ParticleEmitter emitter) {
     ecs::Registry& registry = world().registry;
     const ecs::Entity entity = registry.create();
     registry.add(entity, scene::LocalTransform{{.translation = place}});
     if (parent != ecs::kNullEntity)
         registry.add(entity, scene::Parent{parent});
-    registry.add(entity, std::move(emitter));
+    particles::addEmitter(registry, entity, std::move(emitter));
     return entity;
 }
 

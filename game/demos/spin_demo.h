@@ -2,10 +2,10 @@
 // `spin`: a carousel, a fan and a wind wheel on one shaft; keep the rate, catch the ring.
 #pragma once
 
-#include "engine/scene/particle_emitter.h"
 #include "game/demos/demo_base.h"
 #include "game/demos/random.h"
 #include "game/demos/spin_ride.h"
+#include "modules/particles/particle_emitter.h"
 
 #include <memory>
 #include <vector>
@@ -52,7 +52,7 @@ class SpinDemo final : public DemoBase {
     SpinDemo(scene::World world, Parts parts);
     /// Something that emits there, relative to `parent`; null: to the world.
     ecs::Entity
-    addEmitter(ecs::Entity parent, const math::dvec3& place, scene::ParticleEmitter emitter);
+    addEmitter(ecs::Entity parent, const math::dvec3& place, particles::ParticleEmitter emitter);
     void placeParts();
 
     Parts mParts;

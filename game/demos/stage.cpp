@@ -5,6 +5,7 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/history.h"
 #include "engine/scene/recorded_motion.h"
+#include "modules/particles/particle_extras.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace shutter::game {
 
 core::Result<scene::World> loadDemoScene(const std::filesystem::path& file) {
-    auto loaded = gltf::loadGltf(file);
+    auto loaded = gltf::loadGltf(file, {}, {&particles::kParticleExtras, 1});
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)

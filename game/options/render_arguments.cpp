@@ -339,15 +339,8 @@ Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
 /// The shot's arguments with what the preset sets, except where an option was typed.
 ShotArguments applyPreset(const RenderArguments& arguments) {
     ShotArguments shot = arguments.shot;
-    const PresetEffects* effects = findPresetEffects(arguments.method.preset);
-    if (!effects)
-        return shot;
-    if (!shot.typed.contains("--aa"))
-        shot.picture.antiAliasing = effects->antiAliasing;
-    if (!shot.typed.contains("--shadows"))
-        shot.picture.features.shadows.mode = effects->shadows;
-    if (!shot.typed.contains("--bloom"))
-        shot.picture.bloom.share = effects->bloomShare;
+    if (const PresetEffects* effects = findPresetEffects(arguments.method.preset))
+        apply(*effects, shot.picture, shot.typed);
     return shot;
 }
 

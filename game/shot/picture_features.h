@@ -2,6 +2,7 @@
 // The objects of FeatureSettings: what takes part in a picture besides its effects.
 #pragma once
 
+#include "engine/gltf/extras.h"
 #include "engine/gpu/device.h"
 #include "engine/render/renderer.h"
 #include "game/shot/picture_settings.h"
@@ -9,9 +10,18 @@
 #include "modules/particles/particles.h"
 #include "modules/shadows/shadows.h"
 
+#include <set>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace shutter::game {
+
+/// Readers of the features' components, for gltf::loadGltf().
+[[nodiscard]] std::span<const gltf::ExtraReader> listExtraReaders();
+
+/// Intermediates that features publish, for `--aov` and debug views.
+[[nodiscard]] std::set<std::string> listFeatureIntermediates();
 
 /// Of one renderer's scene.
 class PictureFeatures {

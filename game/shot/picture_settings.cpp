@@ -1,23 +1,71 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/picture_settings.h"
 
+#include "engine/core/check.h"
+
 #include <algorithm>
 #include <array>
 
 namespace shutter::game {
 
+namespace {
+
+using Value = PresetEffects::Value;
+
+constexpr std::array kFast = {
+    Value{"antiAliasing", "none"}, Value{"shadows", "blurred"}, Value{"bloomShare", "0"}};
+constexpr std::array kFastWithoutGpu = {
+    Value{"antiAliasing", "none"}, Value{"shadows", "none"}, Value{"bloomShare", "0"}};
+constexpr std::array kGood = {
+    Value{"antiAliasing", "taa"}, Value{"shadows", "blurred"}, Value{"bloomShare", "0.04"}};
+
+/// Calls `visit(row, part)` for the row of each value.
+template <class Visit> void visitValues(const PresetEffects& effects, const Visit& visit) {
+    for (const Value& value : effects.values) {
+        bool isFound = false;
+        visitPictureRows([&](auto rows, const auto& part) {
+            if (const auto* row = core::findRow(rows, value.row)) {
+                isFound = true;
+                visit(*row, part, std::string(value.text));
+            }
+        });
+        SHUTTER_CHECK(isFound, "the preset '{}' sets {}", effects.preset, value.row);
+    }
+}
+
+} // namespace
+
 const PresetEffects* findPresetEffects(std::string_view preset) {
-    using shadows::ShadowMode;
     static constexpr std::array kEffects = {
-        PresetEffects{"performance", AntiAliasing::None, ShadowMode::Blurred, 0.0f, false},
-        PresetEffects{"balanced", AntiAliasing::Taa, ShadowMode::Blurred, 0.04f, true},
-        PresetEffects{"quality", AntiAliasing::Taa, ShadowMode::Blurred, 0.04f, true},
+        PresetEffects{"performance", kFast, false},
+        PresetEffects{kPresetWithoutGpu, kFastWithoutGpu, false},
+        PresetEffects{"balanced", kGood, true},
+        PresetEffects{"quality", kGood, true},
     };
     const auto found =
         std::find_if(kEffects.begin(), kEffects.end(), [&](const PresetEffects& effects) {
             return effects.preset == preset;
         });
     return found == kEffects.end() ? nullptr : &*found;
+}
+
+void apply(
+    const PresetEffects& effects, PictureSettings& settings, const std::set<std::string>& typed
+) {
+    visitValues(effects, [&](const auto& row, const auto& part, const std::string& text) {
+        if (typed.contains(row.option))
+            return;
+        const core::Status parsed = core::parseValue(row, text, part(settings));
+        SHUTTER_CHECK(parsed.ok(), "{}: {}", row.name, parsed.error().message);
+    });
+}
+
+bool isApplied(const PresetEffects& effects, const PictureSettings& settings) {
+    bool applied = true;
+    visitValues(effects, [&](const auto& row, const auto& part, const std::string& text) {
+        applied = applied && core::describeValue(row, part(settings)) == text;
+    });
+    return applied;
 }
 
 bool areEqual(const FeatureSettings& a, const FeatureSettings& b) {

@@ -12,6 +12,8 @@
 #include "modules/tonemap/tonemap.h"
 
 #include <cstdint>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -57,15 +59,29 @@ struct PictureSettings {
 /// What a preset sets besides the method and the blur, the same in `render` and `play`. An
 /// environment is drawn where there is one.
 struct PresetEffects {
+    /// A row of visitPictureRows() and its value as settings files have it.
+    struct Value {
+        std::string_view row;
+        std::string_view text;
+    };
+
     std::string_view preset;
-    AntiAliasing antiAliasing;
-    shadows::ShadowMode shadows;
-    float bloomShare;
+    std::span<const Value> values;
     bool depthOfField; ///< false: cameras are pinholes
 };
 
 /// Null: the preset is about the blur alone, or there is none of this name.
 [[nodiscard]] const PresetEffects* findPresetEffects(std::string_view preset);
+
+/// For where there is no GPU: `performance` without what costs most (game/play/README.md).
+inline constexpr std::string_view kPresetWithoutGpu = "performance without a GPU";
+
+/// \param typed options whose rows remain as they are
+void apply(
+    const PresetEffects& effects, PictureSettings& settings, const std::set<std::string>& typed = {}
+);
+
+[[nodiscard]] bool isApplied(const PresetEffects& effects, const PictureSettings& settings);
 
 /// Rows of what belongs to no module.
 [[nodiscard]] core::SettingRows<PictureSettings> listPictureRows();

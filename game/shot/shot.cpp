@@ -9,6 +9,7 @@
 #include "engine/scene/lens.h"
 #include "engine/scene/world.h"
 #include "game/shot/clips.h"
+#include "game/shot/picture_features.h"
 #include "game/shot/surroundings.h"
 
 #include <algorithm>
@@ -214,7 +215,7 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& opt
 }
 
 core::Result<Shot> loadShot(const ShotOptions& options) {
-    auto loaded = gltf::loadGltf(options.scene, {.reach = options.reach});
+    auto loaded = gltf::loadGltf(options.scene, {.reach = options.reach}, listExtraReaders());
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)

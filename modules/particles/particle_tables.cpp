@@ -3,7 +3,7 @@
 
 #include "engine/scene/clip_jumps.h"
 #include "engine/scene/motion.h"
-#include "engine/scene/particle_emitter.h"
+#include "modules/particles/particle_emitter.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,6 @@ namespace {
 using math::dmat3;
 using math::dmat4;
 using math::dvec3;
-using scene::ParticleEmitter;
 
 /// Steps of the exposure between which the camera is taken to go straight: as far as a mover's
 /// vertices go between shutter open and close, divided by eight.
@@ -78,7 +77,7 @@ class BirthPlace {
     };
 
     /// Nothing: the entity is scaled to a point, which is how clips hide one.
-    [[nodiscard]] std::optional<Placed> place(const scene::ParticleBirth& birth) const {
+    [[nodiscard]] std::optional<Placed> place(const ParticleBirth& birth) const {
         const dmat4 matrix =
             mAlways ? *mAlways : scene::worldFromEntity(mWorld, mEntity, birth.seconds);
         const dmat3 turned(matrix);
@@ -166,8 +165,7 @@ class Extraction {
             return {};
         const scene::ExposureInterval& exposure = mMotion.exposure();
         const OwnTime own{exposure.frame().raster, mMotion.speedOf(entity)};
-        auto living =
-            scene::listLiving(emitter, own.at(secondsAt(mFirst)), own.at(secondsAt(mLast)));
+        auto living = listLiving(emitter, own.at(secondsAt(mFirst)), own.at(secondsAt(mLast)));
         if (!living)
             return core::makeError(
                 "emitter {}: {}", describeEntity(mWorld, entity), living.error().message
@@ -179,14 +177,14 @@ class Extraction {
         const double beginning = findBeginning(mWorld, entity);
         const double raster = own.at(secondsAt(mView.times().raster));
         const BirthPlace births(mWorld, entity, emitter.inherit);
-        for (const scene::ParticleBirth& birth : living.value())
+        for (const ParticleBirth& birth : living.value())
             if (birth.seconds >= beginning)
                 if (const auto placed = births.place(birth))
                     addRow(birth, *placed, raster, index);
-        if (mRows.size() > scene::kMaxParticles)
+        if (mRows.size() > kMaxParticles)
             return core::makeError(
                 "more than {} particles live at {} s, with those of emitter {}: emit fewer",
-                scene::kMaxParticles,
+                kMaxParticles,
                 exposure.raster,
                 describeEntity(mWorld, entity)
             );
@@ -210,13 +208,13 @@ class Extraction {
 
   private:
     core::Status check(ecs::Entity entity, const ParticleEmitter& emitter) const {
-        if (const core::Status valid = scene::validateEmitter(emitter); !valid)
+        if (const core::Status valid = validateEmitter(emitter); !valid)
             return core::makeError(
                 "emitter {}: {}", describeEntity(mWorld, entity), valid.error().message
             );
         const std::vector<scene::Texture>& textures = mWorld.assets.textures;
         if (emitter.texture != scene::kNone &&
-            (emitter.texture >= textures.size() || !textures[emitter.texture].onParticles))
+            (emitter.texture >= textures.size() || !textures[emitter.texture].isLoose))
             return core::makeError(
                 "emitter {}: texture {} is none that particles show",
                 describeEntity(mWorld, entity),
@@ -250,13 +248,13 @@ class Extraction {
             row.texture = emitter.texture;
             row.textureTexels = float(std::max(image.width, image.height));
         }
-        row.flags = (emitter.blend == scene::ParticleBlend::Add ? shader::kParticleAdd : 0u) |
+        row.flags = (emitter.blend == ParticleBlend::Add ? shader::kParticleAdd : 0u) |
                     (emitter.lit ? shader::kParticleLit : 0u);
         return row;
     }
 
     void addRow(
-        const scene::ParticleBirth& birth,
+        const ParticleBirth& birth,
         const BirthPlace::Placed& placed,
         double rasterSeconds,
         uint32_t emitter

@@ -46,7 +46,7 @@ struct ParticleTables {
 };
 
 /// \param view of the frame, made from `world` and `request`
-/// Error: an emitter that cannot be drawn, or more particles than scene::kMaxParticles.
+/// Error: an emitter that cannot be drawn, or more particles than kMaxParticles.
 [[nodiscard]] core::Result<ParticleTables> extractParticles(
     const scene::World& world,
     const extract::ViewRequest& request,

@@ -23,7 +23,7 @@ class Particles : public render::Overlay {
 
     [[nodiscard]] std::string name() const override { return "particles"; }
 
-    /// Error: an emitter that cannot be drawn, or more particles than scene::kMaxParticles.
+    /// Error: an emitter that cannot be drawn, or more particles than kMaxParticles.
     [[nodiscard]] core::Result<render::OverlayPlan> extract(const render::OverlayExtract& source
     ) override;
     [[nodiscard]] graph::ImageHandle declare(const render::OverlayContext& context) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Particles (scene::ParticleEmitter) as tables, where each of them is at any time, and the share of
-// a span of time in which one covers a pixel: in closed form.
+// Particles (particles::ParticleEmitter) as tables, where each of them is at any time, and the
+// share of a span of time in which one covers a pixel: in closed form.
 #ifndef SHUTTER_PARTICLE_SHARED_H
 #define SHUTTER_PARTICLE_SHARED_H
 

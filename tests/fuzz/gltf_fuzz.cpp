@@ -3,6 +3,7 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
+#include "modules/particles/particle_extras.h"
 #include "tests/fuzz/fuzz_file.h"
 
 namespace {
@@ -41,7 +42,9 @@ void checkWorld(scene::World& world) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     auto loaded = gltf::loadGltf(
-        fuzz::writeInput(data, size), {.maxVertexBytes = kMaxBytes, .maxImageBytes = kMaxBytes}
+        fuzz::writeInput(data, size),
+        {.maxVertexBytes = kMaxBytes, .maxImageBytes = kMaxBytes},
+        {&particles::kParticleExtras, 1}
     );
     if (loaded)
         checkWorld(loaded.value().world);

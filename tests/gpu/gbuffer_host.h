@@ -332,9 +332,8 @@ class BlurStage {
     }
 
     StagedFrame draw() {
-        auto drawn = renderer.renderFrame(
-            mScene.world, makeRequest(), mFeatures.listWith(mEffects)
-        );
+        auto drawn =
+            renderer.renderFrame(mScene.world, makeRequest(), mFeatures.listWith(mEffects));
         EXPECT_TRUE(drawn.ok()) << drawn.error().message;
         StagedFrame frame{std::move(drawn).value(), host.output.read(), host.inPlace.read(), {}};
         if (host.blurOfC)

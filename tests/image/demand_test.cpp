@@ -5,9 +5,9 @@
 #include "engine/image/metrics.h"
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
-#include "engine/scene/particle_emitter.h"
 #include "game/shot/picture_features.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "modules/particles/particle_emitter.h"
 #include "tests/image/laws.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
@@ -287,6 +287,44 @@ TEST_F(DemandLaw, UnreadCountersAreNotReadBack) {
     };
     check("hybrid", "pixels masked", "read ray mask counters");
     check("resolved", "unresolved samples", "read resolved counters");
+}
+
+/// Pipelines that three frames request on a device that makes them ahead, as `play` does on GPUs.
+uint32_t countRequested(const gpu::Device& like, const SceneBuilder& scene, const char* method) {
+    gpu::DeviceOptions options;
+    options.validate = true;
+    options.wanted = like.info().name;
+    options.pipelinesAhead = gpu::PipelinesAhead::Always;
+    auto device = gpu::Device::create(options);
+    EXPECT_TRUE(device) << device.error().message;
+    if (!device)
+        return 0;
+    {
+        Frames frames(*device.value(), scene);
+        for (const double seconds : {0.2, 0.25, 0.3})
+            (void)frames.draw(frameShot(method, seconds));
+    }
+    EXPECT_EQ(device.value()->validationMessageCount(), 0u);
+    return device.value()->lazyPipelineCount();
+}
+
+TEST_F(DemandLaw, AGpuCompilesTheSearchesThatItsFramesUse) {
+    SceneBuilder lens = makePane();
+    lens.world.registry.add(lens.camera, scene::CameraLens{.fStop = 1.4, .focusDistance = 0.5});
+    SceneBuilder deforming = makePane();
+    const test::Placement joints[] = {
+        {.position = {0.3, -0.5, -2}}, {.position = {0, 0.5, 0}, .angularVelocity = {0, 0, 2}}};
+    test::addSkinned(
+        deforming, test::makeStrip(0.3, 1.0, 4, deforming.addColor({0.9f, 0.2f, 0.1f})), joints
+    );
+    const SceneBuilder pane = makePane();
+    const SceneBuilder sphere = makeSphere();
+    const SceneBuilder* const scenes[] = {&pane, &sphere, &deforming, &lens};
+    for (const SceneBuilder* scene : scenes) {
+        // There are 64 variants of each of three passes that search.
+        EXPECT_LE(countRequested(device(), *scene, "resolved"), 50u);
+        EXPECT_LE(countRequested(device(), *scene, "gather"), 25u);
+    }
 }
 
 /// A device that makes pipelines ahead, except for one, which waits until it is released.
@@ -571,7 +609,7 @@ Sequence drawSequence(gpu::Device& device, const std::string& method, uint32_t f
         {.position = {0.1, 0.1, -1.5}, .velocity = {-1.0, 0.2, 0}, .angularVelocity = {0, 0, 2}}
     );
     scene::World& world = crowd.scene.world;
-    scene::ParticleEmitter emitter;
+    particles::ParticleEmitter emitter;
     emitter.spans = {{.fromSeconds = -1.0, .untilSeconds = 1.0, .perSecond = 60.0}};
     emitter.lifeSeconds = 0.3;
     emitter.velocity = {0.0, 1.0, 0.0};

@@ -4,7 +4,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/image/metrics.h"
-#include "engine/scene/particle_emitter.h"
+#include "modules/particles/particle_emitter.h"
 #include "tests/kit/sweep.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
@@ -105,11 +105,12 @@ inline scene::AssetIndex addGlass(
     return scene.addMaterial(std::move(glass));
 }
 
-inline ecs::Entity
-addEmitter(SceneBuilder& scene, const scene::ParticleEmitter& emitter, const math::dvec3& place) {
+inline ecs::Entity addEmitter(
+    SceneBuilder& scene, const particles::ParticleEmitter& emitter, const math::dvec3& place
+) {
     const ecs::Entity entity = scene.world.registry.create();
     scene.place(entity, {.position = place});
-    scene.world.registry.add(entity, emitter);
+    particles::addEmitter(scene.world.registry, entity, emitter);
     return entity;
 }
 

@@ -2,7 +2,7 @@
 // Particles: where they are, what of them is seen, and that a streak is the mean of its instants.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
-#include "engine/scene/particle_emitter.h"
+#include "modules/particles/particle_emitter.h"
 #include "tests/image/laws.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -22,7 +22,7 @@ namespace {
 using math::dvec2;
 using math::dvec3;
 using math::vec4;
-using scene::ParticleEmitter;
+using particles::ParticleEmitter;
 using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
@@ -129,8 +129,8 @@ TEST_F(ParticleLaw, AParticleBornOrDyingInTheExposureIsVisibleForItsShare) {
 }
 
 TEST_F(ParticleLaw, AShowerIsAsTheMeanOfManyInstantsHasIt) {
-    for (const scene::ParticleBlend blend :
-         {scene::ParticleBlend::Alpha, scene::ParticleBlend::Add}) {
+    for (const particles::ParticleBlend blend :
+         {particles::ParticleBlend::Alpha, particles::ParticleBlend::Add}) {
         PixelScene scene;
         ParticleEmitter emitter = makeShower();
         emitter.blend = blend;
@@ -261,7 +261,7 @@ TEST_F(ParticleLaw, AFlashIsTheMeanOfItsColours) {
 
 TEST_F(ParticleLaw, APictureThatTurnsGrowsOrFlashesInPlaceIsTheMeanOfItsInstants) {
     PixelScene scene;
-    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].onParticles = true;
+    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].isLoose = true;
     ParticleEmitter turns = makeOne(40.0, {});
     turns.spin = 12.0;
     turns.seed = 3;
@@ -286,7 +286,7 @@ TEST_F(ParticleLaw, APictureThatTurnsGrowsOrFlashesInPlaceIsTheMeanOfItsInstants
 TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {
     PixelScene scene;
     scene.addWaves(); // image 0
-    scene.world.assets.textures[0].onParticles = true;
+    scene.world.assets.textures[0].isLoose = true;
     ParticleEmitter emitter = makeOne(24.0, {200.0, 0.0, 0.0}, -0.1);
     emitter.spin = 4.0;
     emitter.texture = 0;
@@ -301,7 +301,7 @@ TEST_F(ParticleLaw, APictureOnThemIsShownAtInstantsOfTheExposure) {
 
 TEST_F(ParticleLaw, HolesOfAParticlesPictureShowTheBackground) {
     PixelScene scene;
-    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].onParticles = true;
+    scene.world.assets.textures[scene.addWaveTexture(64, /*alphaHoles=*/true)].isLoose = true;
     test::addCard(scene, {100, 80}, {0.6f, 0.6f, 0.6f}, {.position = {0, 0, -20}});
     ParticleEmitter emitter = makeOne(40.0, {200.0, 0.0, 0.0}, -0.1);
     emitter.texture = 0;
@@ -375,7 +375,7 @@ test::Comparison comparePuffs(gpu::Device& device, const PuffScene& scene) {
 
 TEST_F(ParticleLaw, AMoverHidesAndShowsThemAtTheInstantsAtWhichItIsThere) {
     ParticleEmitter sparks = makePuffs();
-    sparks.blend = scene::ParticleBlend::Add;
+    sparks.blend = particles::ParticleBlend::Add;
     for (const auto& [emitter, least] : {std::pair(makePuffs(), 46.0), std::pair(sparks, 42.0)}) {
         PuffScene scene(emitter);
         scene.addSweep(2.4);
@@ -479,7 +479,7 @@ TEST_F(ParticleLaw, LightThatThePictureCannotHoldStaysFinite) {
         PixelScene scene;
         ParticleEmitter emitter = makeOne(20.0, {});
         emitter.bursts[0].count = 200;
-        emitter.blend = scene::ParticleBlend::Add;
+        emitter.blend = particles::ParticleBlend::Add;
         emitter.colors.fill(vec4(1000.0f, 1000.0f, 1000.0f, 1.0f));
         scene.emit(emitter, {0.0, 0.0, -10.0});
         const image::Image picture = draw(scene, method);

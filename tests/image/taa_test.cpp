@@ -4,8 +4,8 @@
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
 #include "engine/scene/lens.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/path.h"
+#include "modules/particles/particle_emitter.h"
 #include "modules/shadows/shadow_plan.h"
 #include "tests/image/laws.h"
 #include "tests/support/gpu_fixture.h"
@@ -125,7 +125,7 @@ class TaaScene {
 
     /// One particle, alive from the start, grey.
     void addParticle(const math::dvec3& position, const math::dvec3& velocity) {
-        scene::ParticleEmitter emitter;
+        particles::ParticleEmitter emitter;
         emitter.bursts = {{.seconds = 0.0, .count = 1}};
         emitter.lifeSeconds = 10.0;
         emitter.velocity = velocity;

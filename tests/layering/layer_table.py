@@ -61,7 +61,7 @@ PUBLIC_HEADERS = read_rows({
     "graph": "compile.h execute.h graph.h ray_scene.h transient_pool.h types.h",
     "io": "file_bytes.h image_file.h process.h uri.h video.h",
     "json": "json_file.h json_rows.h",
-    "gltf": "gltf_loader.h",
+    "gltf": "extras.h gltf_loader.h",
 })
 
 # Modules that other engines may take without our scene: files outside of plugin/ may include this.

@@ -5,8 +5,9 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/shutter.h"
+#include "modules/particles/particle_emitter.h"
+#include "modules/particles/particle_extras.h"
 #include "modules/particles/particle_tables.h"
 #include "tests/support/outcomes.h"
 
@@ -40,7 +41,8 @@ scene::World writeAndLoad(const std::string& name, const GltfWriter& writer) {
     const fs::path path = folder / (name + ".glb");
     const std::string problem = writer.write(path);
     EXPECT_EQ(problem, "");
-    gltf::LoadedScene loaded = test::valueOf(gltf::loadGltf(path));
+    gltf::LoadedScene loaded =
+        test::valueOf(gltf::loadGltf(path, {}, {&particles::kParticleExtras, 1}));
     fs::remove(path);
     for (const std::string& warning : loaded.warnings)
         ADD_FAILURE() << warning;
@@ -120,9 +122,10 @@ TEST_P(HardCase, EachCaseLoadsWithoutAWarningAndMovesDuringItsExposure) {
         EXPECT_GE(wayPx, hardCase.peakMotionPx.x);
         EXPECT_LE(wayPx, hardCase.peakMotionPx.y);
         size_t living = 0;
-        for (const auto& [entity, emitter] : world.registry.view<const scene::ParticleEmitter>()) {
+        for (const auto& [entity, emitter] :
+             world.registry.view<const particles::ParticleEmitter>()) {
             const double open = kCaseSeconds - 2.0 * kCaseExposureSeconds;
-            living += scene::listLiving(emitter, open, kCaseSeconds).value().size();
+            living += particles::listLiving(emitter, open, kCaseSeconds).value().size();
         }
         EXPECT_GE(living, kLiving.at(hardCase.name).first);
         EXPECT_LE(living, kLiving.at(hardCase.name).second);

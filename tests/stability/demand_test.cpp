@@ -5,8 +5,8 @@
 #include "assets/generator/scenes.h"
 #include "engine/environment/environment.h"
 #include "engine/gltf/gltf_loader.h"
-#include "engine/scene/particle_emitter.h"
 #include "modules/bloom/bloom.h"
+#include "modules/particles/particle_emitter.h"
 #include "tests/stability/hard_case.h"
 #include "tests/support/temp_folder.h"
 
@@ -233,7 +233,7 @@ TEST_F(Demand, ParticlesThatTheViewLeavesOutHaveNoPassNoImageAndNoBuffer) {
     const auto without = draw(true);
     const ecs::Entity entity = scene.world.registry.create();
     scene.world.registry.add(entity, scene::LocalTransform{{.translation = {0.0, 0.0, -2.0}}});
-    scene::ParticleEmitter emitter;
+    particles::ParticleEmitter emitter;
     emitter.spans = {{.fromSeconds = -10.0, .perSecond = 200.0}};
     emitter.velocity = {0.5, 0.5, 0.0};
     scene.world.registry.add(entity, emitter);

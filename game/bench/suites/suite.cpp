@@ -382,8 +382,7 @@ Suite makeLookSuite() {
         if (std::string_view(row.demo).empty())
             continue;
         SequenceCase film = makeFilm(row);
-        film.shot.picture.features.shadows.mode = shadows::ShadowMode::Blurred;
-        film.shot.picture.bloom.share = 0.04f;
+        game::apply(*game::findPresetEffects("balanced"), film.shot.picture);
         suite.sequences.push_back(std::move(film));
     }
     return suite;

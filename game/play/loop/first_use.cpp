@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/first_use.h"
 
+#include "game/play/panel/effect_switches.h"
+
 namespace shutter::game {
 
+FirstUse::FirstUse() {
+    mLast.method = "sharp";
+    for (const EffectSwitch& effect : listEffectSwitches())
+        effect.turnOff(mLast);
+}
+
 FirstUse::Needs FirstUse::findNeeds(const PlaySettings& settings) {
-    return {
-        settings.method,
-        settings.split ? settings.leftMethod : std::string(),
-        settings.picture.antiAliasing,
-        settings.picture.features.shadows.mode,
-        settings.picture.bloom.share > 0.0f};
+    Needs needs{settings.method, settings.split ? settings.leftMethod : std::string(), {}};
+    for (const EffectSwitch& effect : listEffectSwitches())
+        if (effect.takesShaders)
+            needs.effects.push_back(effect.describe(settings));
+    return needs;
 }
 
 PlaySettings FirstUse::reuse(const PlaySettings& wanted) const {
     PlaySettings settings = wanted;
     settings.method = mLast.method;
-    settings.split = !mLast.leftMethod.empty();
-    if (settings.split)
-        settings.leftMethod = mLast.leftMethod;
-    settings.picture.antiAliasing = mLast.antiAliasing;
-    settings.picture.features.shadows.mode = mLast.shadows;
-    if (!mLast.bloom)
-        settings.picture.bloom.share = 0.0f;
+    settings.split = mLast.split;
+    settings.leftMethod = mLast.split ? mLast.leftMethod : wanted.leftMethod;
+    for (const EffectSwitch& effect : listEffectSwitches())
+        if (effect.takesShaders)
+            effect.copy(mLast, settings);
     return settings;
 }
 
@@ -29,7 +34,7 @@ PlaySettings FirstUse::choose(const PlaySettings& wanted) {
     const Needs needs = findNeeds(wanted);
     if (mIsAnnounced || mKnown.contains(needs)) {
         mKnown.insert(needs);
-        mLast = needs;
+        mLast = wanted;
         mNotice.clear();
         mIsAnnounced = false;
         return wanted;

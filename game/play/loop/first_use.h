@@ -8,11 +8,14 @@
 #include <compare>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace shutter::game {
 
 class FirstUse {
   public:
+    FirstUse();
+
     /// The settings of the next picture. Where the wanted ones take shaders that no picture had
     /// yet, one more is drawn without them, which holds notice(); at first that is a sharp picture
     /// without other effects.
@@ -25,10 +28,8 @@ class FirstUse {
     /// What decides which shaders a picture takes. Others take little time.
     struct Needs {
         std::string method;
-        std::string leftMethod; ///< empty: no split
-        AntiAliasing antiAliasing = AntiAliasing::None;
-        shadows::ShadowMode shadows = shadows::ShadowMode::None;
-        bool bloom = false;
+        std::string leftMethod;           ///< empty: no split
+        std::vector<std::string> effects; ///< EffectSwitch::describe() of those that take shaders
 
         auto operator<=>(const Needs&) const = default;
     };
@@ -38,7 +39,7 @@ class FirstUse {
     [[nodiscard]] PlaySettings reuse(const PlaySettings& wanted) const;
 
     std::set<Needs> mKnown;
-    Needs mLast{.method = "sharp"};
+    PlaySettings mLast; ///< of the last picture
     std::string mNotice = "compiling shaders";
     bool mIsAnnounced = false; ///< by the last picture
 };

@@ -2,6 +2,7 @@
 #include "game/play/loop/hotkeys.h"
 
 #include "engine/core/check.h"
+#include "game/play/panel/effect_switches.h"
 #include "game/shot/picture_drawer.h"
 
 #include <algorithm>
@@ -19,6 +20,9 @@ constexpr std::array kSpeeds = {0.05, 0.1, 0.25, 0.5, 1.0};
 
 constexpr std::array kPresetKeys = {
     Key::Digit1, Key::Digit2, Key::Digit3, Key::Digit4, Key::Digit5};
+/// Of listEffectSwitches().
+constexpr std::array kEffectKeys = {
+    Key::Digit6, Key::Digit7, Key::Digit8, Key::Digit9, Key::Digit0};
 
 /// The picture itself comes before the first and after the last view.
 void cycleView(std::span<const std::string> views, int step, std::string& view) {
@@ -27,33 +31,6 @@ void cycleView(std::span<const std::string> views, int step, std::string& view) 
     const int place = found == views.end() ? 0 : static_cast<int>(found - views.begin()) + 1;
     const int next = (place + step + count + 1) % (count + 1);
     view = next == 0 ? std::string() : views[static_cast<size_t>(next - 1)];
-}
-
-shadows::ShadowMode nextMode(shadows::ShadowMode mode) {
-    switch (mode) {
-    case shadows::ShadowMode::None:
-        return shadows::ShadowMode::Sharp;
-    case shadows::ShadowMode::Sharp:
-        return shadows::ShadowMode::Blurred;
-    case shadows::ShadowMode::Blurred:
-        break;
-    }
-    return shadows::ShadowMode::None;
-}
-
-void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
-    PictureSettings& picture = settings.picture;
-    if (input.wasPressed(Key::Digit6))
-        picture.antiAliasing =
-            picture.antiAliasing == AntiAliasing::None ? AntiAliasing::Taa : AntiAliasing::None;
-    if (input.wasPressed(Key::Digit7))
-        picture.features.shadows.mode = nextMode(picture.features.shadows.mode);
-    if (input.wasPressed(Key::Digit8))
-        settings.environment = !settings.environment;
-    if (input.wasPressed(Key::Digit9))
-        picture.bloom.share = picture.bloom.share > 0.0f ? 0.0f : makePlayPicture().bloom.share;
-    if (input.wasPressed(Key::Digit0))
-        picture.features.particles.areShown = !picture.features.particles.areShown;
 }
 
 } // namespace
@@ -98,7 +75,9 @@ PanelRequests applyHotkeys(
     for (size_t i = 0; i < kPresetKeys.size() && i < listPresets().size(); ++i)
         if (input.wasPressed(kPresetKeys[i]))
             applyPreset(listPresets()[i], settings);
-    applyEffectKeys(input, settings);
+    for (size_t i = 0; i < kEffectKeys.size() && i < listEffectSwitches().size(); ++i)
+        if (input.wasPressed(kEffectKeys[i]))
+            pressKey(listEffectSwitches()[i], settings);
     PanelRequests requests;
     requests.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
     requests.togglePhoto = input.wasPressed(Key::T);
@@ -139,10 +118,9 @@ explainIdleKeys(const app::InputState& input, const KeyFacts& facts, const PlayS
         return "sharp blurs nothing, the camera's motion neither";
     if (pressed({Key::Digit6}) && method && isSampledAnyway(*method.value()))
         return fmt::format("{} has smooth edges without help", method.value()->name);
-    if (pressed({Key::Digit8}) && !facts.hasEnvironment)
-        return "the scene has no sky; --sky adds one";
-    if (pressed({Key::Digit0}) && !facts.hasParticles)
-        return "the scene has no particles";
+    for (size_t i = 0; i < kEffectKeys.size() && i < facts.idleEffects.size(); ++i)
+        if (pressed({kEffectKeys[i]}) && !facts.idleEffects[i].empty())
+            return facts.idleEffects[i];
     if (pressed({Key::Comma}) && facts.speed <= kSpeeds.front())
         return fmt::format("speed {:g} is the slowest", kSpeeds.front());
     if (pressed({Key::Slash}) && facts.speed >= kSpeeds.back())

@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace shutter::game {
 
@@ -33,10 +34,10 @@ cycle(std::span<const std::string> choices, const std::string& current, int step
 
 /// What decides whether a key changes anything.
 struct KeyFacts {
-    std::string photoMethod;     ///< that draws photo mode's picture; empty: photo mode is off
-    bool stageRests = false;     ///< the stage reads keys in steps of its time, which is paused
-    bool hasEnvironment = false; ///< a sky or picture around the scene
-    bool hasParticles = false;
+    std::string photoMethod; ///< that draws photo mode's picture; empty: photo mode is off
+    bool stageRests = false; ///< the stage reads keys in steps of its time, which is paused
+    /// EffectSwitch::explainIdle() of each of listEffectSwitches().
+    std::vector<std::string> idleEffects;
     double speed = 1.0; ///< of the game, before the keys
 };
 

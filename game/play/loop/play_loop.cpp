@@ -5,10 +5,10 @@
 #include "engine/core/words.h"
 #include "engine/scene/auto_focus.h"
 #include "engine/scene/lens.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/ray_cast.h"
 #include "engine/scene/shutter.h"
 #include "game/play/loop/picture_files.h"
+#include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
 #include "modules/debug_view/debug_view.h"
 
@@ -363,15 +363,14 @@ KeyFacts PlayLoop::describeKeys() const {
     if (mPhoto.isOn())
         facts.photoMethod = chooseSettings().method;
     facts.stageRests = mClock.isPaused() && mStage->readsKeysInSteps();
-    facts.hasEnvironment = world.assets.environment.has_value();
-    facts.hasParticles =
-        world.registry.view<scene::ParticleEmitter>().begin() != std::default_sentinel;
+    for (const EffectSwitch& effect : listEffectSwitches())
+        facts.idleEffects.push_back(effect.explainIdle ? effect.explainIdle(world) : "");
     facts.speed = mClock.speed();
     return facts;
 }
 
 std::vector<std::string> PlayLoop::listViews() const {
-    std::set<std::string> made{"particles"};
+    std::set<std::string> made = listFeatureIntermediates();
     const auto add = [&](const std::string& name) {
         if (const auto method = findMethod(name))
             made.merge(listIntermediates(*method.value()));

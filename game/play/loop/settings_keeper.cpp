@@ -82,11 +82,10 @@ std::string SettingsKeeper::slowDown(const PlayOptions& options, PlaySettings& s
         return {};
     const Preset& preset = *findPreset("performance").value();
     applyPreset(preset, settings);
-    // More than half of the frame, by far the most of all effects (README.md, "Without a GPU").
-    settings.picture.features.shadows.mode = shadows::ShadowMode::None;
+    apply(*findPresetEffects(kPresetWithoutGpu), settings.picture);
     applyOptions(options, settings);
     return fmt::format(
-        "no GPU: started with the preset {} and without shadows; keys 1 to 9 change it", preset.name
+        "no GPU: started with the preset {}, keys 1 to 9 change it", kPresetWithoutGpu
     );
 }
 

@@ -32,7 +32,7 @@ class SettingsKeeper {
 
     /// What a new player begins with on a software device, whose pictures take the processor: a
     /// budget that is a share of the frame, and, unless `options` name a preset, `performance`
-    /// without shadows, and over it what `options` name.
+    /// with the effects of kPresetWithoutGpu, and over it what `options` name.
     /// \return one line for the player; empty if `options` name a preset
     static std::string slowDown(const PlayOptions& options, PlaySettings& settings);
 

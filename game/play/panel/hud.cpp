@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/words.h"
+#include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/shot/methods.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
@@ -338,27 +339,11 @@ std::string describeState(const PanelFacts& facts, const std::string& view) {
 }
 
 std::string describeEffects(const PlaySettings& settings) {
-    std::string text;
-    const auto add = [&](std::string_view effect) {
-        text += fmt::format("{}{}", text.empty() ? "" : ", ", effect);
-    };
-    const PictureSettings& picture = settings.picture;
-    if (picture.antiAliasing != AntiAliasing::None)
-        add(core::describeValue(core::getRow(listPictureRows(), "antiAliasing"), picture));
-    if (picture.features.shadows.mode != shadows::ShadowMode::None)
-        add(fmt::format(
-            "{} shadows",
-            core::describeValue(
-                core::getRow(shadows::listShadowRows(), "shadows"), picture.features.shadows
-            )
-        ));
-    if (settings.environment)
-        add("sky");
-    if (picture.bloom.share > 0.0f)
-        add("bloom");
-    if (picture.features.particles.areShown)
-        add("particles");
-    return text;
+    std::vector<std::string> effects;
+    for (const EffectSwitch& effect : listEffectSwitches())
+        effects.push_back(effect.describe(settings));
+    std::erase(effects, "");
+    return fmt::format("{}", fmt::join(effects, ", "));
 }
 
 void drawNotice(const std::string& text) {

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: MIT
+#include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <imgui.h>
+#include <string>
 
 namespace shutter::game {
 
 namespace {
 
+std::string listEffects() {
+    std::string words;
+    for (const EffectSwitch& effect : listEffectSwitches())
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", effect.words);
+    return words;
+}
+
 const std::array<KeyHelp, 7> kCommonKeys = {{
     {"M", "method"},
     {"X", "compare"},
     {"1-5", "presets"},
-    {"6-0", "edges, shadows, sky, bloom, particles"},
+    {"6-0", listEffects()},
     {"P", "pause"},
     {"F1", "settings and all keys"},
     {"Esc", "quit"},
@@ -23,7 +34,7 @@ const std::array<KeyHelp, 18> kAllKeys = {{
     {"X", "split screen; drag the divider"},
     {"N", "method left of the split"},
     {"1 to 5", "presets: off, performance, balanced, quality, paper"},
-    {"6 7 8 9 0", "smooth edges, shadows, sky, bloom, particles, on and off"},
+    {"6 7 8 9 0", listEffects() + ", on and off"},
     {"B", "blur of the camera's own motion, on and off"},
     {"V, Shift+V", "next, previous intermediate image"},
     {"P", "pause"},

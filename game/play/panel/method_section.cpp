@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/check.h"
 #include "engine/scene/lens.h"
+#include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/play_settings.h"
 #include "game/play/panel/setting_widgets.h"
@@ -203,17 +204,12 @@ void drawEffectSection(PlaySettings& settings) {
         endRows();
     }
     ButtonRow buttons;
-    const auto set = [&](bool environment, const PictureSettings& effects) {
-        settings.environment = environment;
-        settings.picture.antiAliasing = effects.antiAliasing;
-        settings.picture.features.shadows.mode = effects.features.shadows.mode;
-        settings.picture.bloom.share = effects.bloom.share;
-        settings.picture.features.particles = effects.features.particles;
-    };
     if (buttons.add("All", "All effects besides the blur, as a new player has them."))
-        set(kFresh.environment, kFresh.picture);
+        for (const EffectSwitch& effect : listEffectSwitches())
+            effect.copy(kFresh, settings);
     if (buttons.add("None", "No effect besides the blur."))
-        set(false, PictureSettings{.features = {.particles = {.areShown = false}}});
+        for (const EffectSwitch& effect : listEffectSwitches())
+            effect.turnOff(settings);
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

@@ -81,7 +81,7 @@ findDrawnMethod(const std::string& method, const render::FrameStatistics* statis
     const std::string& method, const render::FrameStatistics* statistics, bool isLimited
 );
 
-/// The enabled effects other than the blur, "taa, blurred shadows, sky, bloom, particles".
+/// The enabled effects other than the blur, "taa, sky, bloom".
 [[nodiscard]] std::string describeEffects(const PlaySettings& settings);
 
 /// "motion blur 12.3 ms (19 % of the frame)"; without the share where frames overlap, so that the

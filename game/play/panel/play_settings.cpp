@@ -51,11 +51,8 @@ bool isSharp(const Preset& preset) {
 }
 
 bool isSeen(const PresetEffects* effects, const PlaySettings& settings) {
-    return !effects ||
-           (settings.picture.antiAliasing == effects->antiAliasing &&
-            settings.picture.features.shadows.mode == effects->shadows && settings.environment &&
-            settings.picture.bloom.share == effects->bloomShare &&
-            settings.depthOfField == effects->depthOfField);
+    return !effects || (isApplied(*effects, settings.picture) && settings.environment &&
+                        settings.depthOfField == effects->depthOfField);
 }
 
 } // namespace
@@ -67,10 +64,8 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     const PresetEffects* effects = findPresetEffects(preset.name);
     if (!effects)
         return;
-    settings.picture.antiAliasing = effects->antiAliasing;
-    settings.picture.features.shadows.mode = effects->shadows;
+    apply(*effects, settings.picture);
     settings.environment = true;
-    settings.picture.bloom.share = effects->bloomShare;
     settings.depthOfField = effects->depthOfField;
 }
 
@@ -93,9 +88,7 @@ motion_blur::BlurBudget computeBudget(const PlaySettings& settings, double other
 
 PictureSettings makePlayPicture() {
     PictureSettings picture;
-    picture.antiAliasing = AntiAliasing::Taa;
-    picture.features.shadows.mode = shadows::ShadowMode::Blurred;
-    picture.bloom.share = 0.04f;
+    apply(*findPresetEffects("balanced"), picture);
     return picture;
 }
 

@@ -22,7 +22,7 @@ namespace shutter::game {
 /// frames per second, so that a slow machine does not smear.
 [[nodiscard]] scene::CameraShutter makePlayShutter();
 
-/// What a new player sees: smooth edges, blurred shadows, a little bloom.
+/// What a new player sees: the effects of the preset `balanced`.
 [[nodiscard]] PictureSettings makePlayPicture();
 
 struct PlaySettings {

@@ -455,7 +455,7 @@ TEST(Sparks, StepsThatFollowOneAnotherAreOneSpanAndWhatIsGoneIsDropped) {
     ecs::Registry registry;
     const ecs::Entity wheel = registry.create();
     registry.add(wheel, makeDust(1));
-    const auto& dust = registry.get<scene::ParticleEmitter>(wheel);
+    const auto& dust = registry.get<particles::ParticleEmitter>(wheel);
     double seconds = 0.0;
     const auto run = [&](int steps, double perSecond) {
         for (int i = 0; i < steps; ++i)
@@ -468,14 +468,14 @@ TEST(Sparks, StepsThatFollowOneAnotherAreOneSpanAndWhatIsGoneIsDropped) {
     run(1, 0.0);
     run(2, 70.0);
     EXPECT_EQ(dust.spans.size(), 2u);
-    EXPECT_TRUE(scene::validateEmitter(dust).ok());
+    EXPECT_TRUE(particles::validateEmitter(dust).ok());
     run(1000, 0.0);
     EXPECT_TRUE(dust.spans.empty());
 }
 
 TEST(Sparks, AllThatTheDemosEmitIsValidAndSparksOfHitPostsFlyOnce) {
     for (const auto& make : {makeSparks, makeBrakeSparks, makeDust, makeSplinters, makeFlash})
-        EXPECT_TRUE(scene::validateEmitter(make(3)).ok());
+        EXPECT_TRUE(particles::validateEmitter(make(3)).ok());
     ecs::Registry registry;
     const ecs::Entity post = registry.create();
     registry.add(post, Post{});
@@ -484,10 +484,10 @@ TEST(Sparks, AllThatTheDemosEmitIsValidAndSparksOfHitPostsFlyOnce) {
     car.velocity = {0.0, -10.0};
     for (const double seconds : {1.0, 1.1})
         (void)hitPosts(registry, car, seconds);
-    const auto& sparks = registry.get<scene::ParticleEmitter>(post);
+    const auto& sparks = registry.get<particles::ParticleEmitter>(post);
     ASSERT_EQ(sparks.bursts.size(), 1u);
     EXPECT_EQ(sparks.bursts[0].seconds, 1.0);
-    EXPECT_GT(scene::listLiving(sparks, 1.0, 1.1).value().size(), 10u);
+    EXPECT_GT(particles::listLiving(sparks, 1.0, 1.1).value().size(), 10u);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials, textures, samplers, pictures, tangents, and EXT_lights_image_based.
 #include "engine/environment/image_based_light.h"
-#include "engine/scene/particle_emitter.h"
 #include "tests/support/outcomes.h"
 #include "tests/unit/gltf/gltf_fixture.h"
 
@@ -202,62 +201,6 @@ TEST(GltfMaterial, PicturesThatAreMissingDamagedOrOutsideTheFolderAreNamed) {
     EXPECT_TRUE(expectLoads(load("none.png", "")).world.assets.images.empty());
     for (const char* uri : {"../secret.png", "%2e%2e/secret.png", "file:///etc/hostname"})
         expectRefused(load(uri), "images[0].uri: the URI");
-}
-
-/// A scene of one node that emits particles with this texture.
-std::string emitting(const std::string& texture) {
-    return R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"extras":{"particles":{"texture":)" +
-           texture + "}}}]";
-}
-
-/// Of the only emitter.
-scene::AssetIndex emittersTexture(const LoadedScene& scene) {
-    size_t count = 0;
-    scene::AssetIndex texture = scene::kNone;
-    for (auto [entity, emitter] : scene.world.registry.view<scene::ParticleEmitter>()) {
-        texture = emitter.texture;
-        ++count;
-    }
-    EXPECT_EQ(count, 1u);
-    return texture;
-}
-
-TEST(GltfMaterial, APictureThatParticlesAloneShowIsRead) {
-    const std::string textures = fmt::format(
-        R"("images":[{{"uri":"none.png"}},{}],"textures":[{{"source":0}},{{"source":1}}],)",
-        picture()
-    );
-    const LoadedScene alone = readMembers(textures + emitting("1"));
-    const scene::Assets& assets = alone.world.assets;
-    ASSERT_EQ(assets.textures.size(), 1u) << "the other one is not opened";
-    EXPECT_TRUE(assets.textures[0].onParticles);
-    EXPECT_EQ(
-        assets.images.at(assets.textures[0].image).rgba, (std::vector<uint8_t>{200, 100, 50, 128})
-    );
-    EXPECT_EQ(emittersTexture(alone), 0u);
-    // A material's own is shared.
-    const LoadedScene shared =
-        readMembers(textures + emitting("1") + R"(,"materials":[{"emissiveTexture":{"index":1}}])");
-    ASSERT_EQ(shared.world.assets.textures.size(), 1u);
-    EXPECT_TRUE(shared.world.assets.textures[0].onParticles);
-    EXPECT_EQ(emittersTexture(shared), 0u);
-}
-
-TEST(GltfMaterial, APictureOfParticlesThatIsNotThereIsRefusedByName) {
-    const std::string at = "nodes[0].extras.particles.texture";
-    expectRefused(
-        loadMembers(oneTexture() + "," + emitting("1")), at + " is 1, but there is 1 texture"
-    );
-    for (const char* wrong : {"-1", "0.5", "1e12", "\"puff\"", "[0]"})
-        expectRefused(loadMembers(oneTexture() + "," + emitting(wrong)), at);
-    expectRefused(
-        loadMembers(R"("images":[{"uri":"none.png"}],"textures":[{"source":0}],)" + emitting("0")),
-        "none.png"
-    );
-    // As a material does, they go without one that names no picture.
-    const LoadedScene without = readMembers(R"("textures":[{}],)" + emitting("0"));
-    EXPECT_EQ(emittersTexture(without), scene::kNone);
-    EXPECT_TRUE(hasWarning(without, "textures[0]"));
 }
 
 /// The triangle with normals, two texture coordinate sets and a normal map on set `uvSet`.

@@ -3,7 +3,6 @@
 #include "engine/gltf/gltf_parts.h"
 #include "engine/scene/auto_focus.h"
 #include "engine/scene/motion.h"
-#include "engine/scene/particle_emitter.h"
 #include "tests/support/rows.h"
 #include "tests/unit/gltf/gltf_fixture.h"
 
@@ -472,10 +471,6 @@ TEST(GltfExtras, UnknownMembersAreWarnedOf) {
     ASSERT_EQ(waves.size(), 2u);
     EXPECT_NE(waves[0].find("'speed'"), std::string::npos);
     EXPECT_NE(waves[1].find("waves[0] has a member 'amplitude'"), std::string::npos);
-    const auto particles =
-        warnings(R"({"particles":{"speed":1,"spans":[{"rate":2}],"bursts":[{"size":1}]}})");
-    ASSERT_EQ(particles.size(), 3u);
-    EXPECT_NE(particles[0].find("'speed'"), std::string::npos);
 }
 
 core::Result<LoadedScene> loadLens(const std::string& extras) {
@@ -649,68 +644,6 @@ TEST(GltfVertexWaves, BadValuesAreRefusedByName) {
          {R"({"share":"color","channel":4})", "channel"},
          {R"({"share":"height","axis":[0,0,0]})", "axis"},
          {R"({"exponent":0})", "exponent"}}
-    );
-}
-
-TEST(GltfParticles, ParticlesAreReadFromExtras) {
-    const LoadedScene loaded = expectLoads(loadExtras(
-        R"({"particles":{"spans":[{"fromSeconds":1,"untilSeconds":2,"perSecond":30}],)"
-        R"("bursts":[{"seconds":3,"count":4}],"lifeSeconds":5,"lifeSpread":0.5,)"
-        R"("velocity":[1,2,3],"coneDegrees":20,"speedSpread":0.25,"inherit":0.75,"radius":6,)"
-        R"("gravity":[0,-9.81,0],"drag":0.5,"sizeBirth":0.125,"spin":7,)"
-        R"("colors":[[1,2,3,0.5],[4,5,6,1],[7,8,9,0]],"blend":"add","softMetres":0.75,)"
-        R"("lit":true,"seed":9}})"
-    ));
-    EXPECT_TRUE(loaded.warnings.empty());
-    const auto* emitter = findOnly<scene::ParticleEmitter>(loaded);
-    ASSERT_TRUE(emitter);
-    ASSERT_EQ(emitter->spans.size(), 1u);
-    EXPECT_EQ(emitter->spans[0].fromSeconds, 1.0);
-    EXPECT_EQ(emitter->spans[0].untilSeconds, 2.0);
-    EXPECT_EQ(emitter->spans[0].perSecond, 30.0);
-    ASSERT_EQ(emitter->bursts.size(), 1u);
-    EXPECT_EQ(emitter->bursts[0].seconds, 3.0);
-    EXPECT_EQ(emitter->bursts[0].count, 4u);
-    EXPECT_EQ(emitter->lifeSeconds, 5.0);
-    EXPECT_EQ(emitter->lifeSpread, 0.5);
-    EXPECT_EQ(emitter->velocity, dvec3(1, 2, 3));
-    EXPECT_EQ(emitter->coneDegrees, 20.0);
-    EXPECT_EQ(emitter->speedSpread, 0.25);
-    EXPECT_EQ(emitter->inherit, 0.75);
-    EXPECT_EQ(emitter->radius, 6.0);
-    EXPECT_EQ(emitter->gravity, dvec3(0, -9.81, 0));
-    EXPECT_EQ(emitter->drag, 0.5);
-    EXPECT_EQ(emitter->sizeBirth, 0.125);
-    EXPECT_EQ(emitter->sizeDeath, 0.125) << "none is given: it keeps its size";
-    EXPECT_EQ(emitter->spin, 7.0);
-    EXPECT_EQ(emitter->colors[1], math::vec4(4, 5, 6, 1));
-    EXPECT_EQ(emitter->texture, scene::kNone);
-    EXPECT_EQ(emitter->blend, scene::ParticleBlend::Add);
-    EXPECT_EQ(emitter->softMetres, 0.75);
-    EXPECT_TRUE(emitter->lit);
-    EXPECT_EQ(emitter->seed, 9u);
-}
-
-TEST(GltfParticles, BadValuesAreRefusedByName) {
-    expectExtrasRefused(
-        "particles",
-        {{R"(3)", ""},
-         {R"({"spans":{"a":1}})", ".spans is not an array"},
-         {R"({"spans":[1]})", ".spans[0] is not an object"},
-         {R"({"spans":[{"perSecond":-1}]})", "spans[0].perSecond"},
-         {R"({"spans":[{"fromSeconds":"now"}]})", ".spans[0].fromSeconds"},
-         {R"({"spans":[{"perSecond":1},{"perSecond":1}]})", "spans[1] begins"},
-         {R"({"bursts":[{"count":1.5}]})", ".bursts[0].count"},
-         {R"({"lifeSeconds":0})", "lifeSeconds"},
-         {R"({"lifeSpread":1})", "lifeSpread"},
-         {R"({"velocity":[1,2]})", ".velocity"},
-         {R"({"colors":[[1,1,1,1]]})", ".colors is not an array of 3"},
-         {R"({"colors":[[1,1,1],[1,1,1,1],[1,1,1,1]]})", ".colors[0]"},
-         {R"({"colors":[[1,1,1,1],[1,1,1,2],[1,1,1,1]]})", "colors[1]"},
-         {R"({"texture":0})", ".texture is 0, but there are 0 textures"},
-         {R"({"blend":"screen"})", ".blend is none of 'alpha', 'add'"},
-         {R"({"lit":1})", ".lit"},
-         {R"({"seed":-1})", ".seed"}}
     );
 }
 

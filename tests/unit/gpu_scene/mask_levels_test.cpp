@@ -114,7 +114,7 @@ TEST(MaskLevels, ImagesOfAnySizeHaveAllLevelsAndOpaqueOnesStayOpaque) {
 TEST(MaskLevels, OnlyImagesThatMasksOfOneCutoffReadAreMasks) {
     scene::Assets assets;
     for (uint32_t i = 0; i < 5; ++i)
-        assets.textures.push_back({.image = i, .onParticles = i == 4});
+        assets.textures.push_back({.image = i, .isLoose = i == 4});
     const auto add = [&](scene::AssetIndex texture, scene::AlphaMode mode, float factor) {
         scene::Material material;
         material.alphaMode = mode;

@@ -2,8 +2,8 @@
 // Particles as a picture's tables, and the formulas that shaders evaluate them by.
 #include "engine/scene/history.h"
 #include "engine/scene/motion.h"
-#include "engine/scene/particle_emitter.h"
 #include "engine/scene/recorded_motion.h"
+#include "modules/particles/particle_emitter.h"
 #include "modules/particles/particle_instants.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
@@ -35,10 +35,10 @@ class ParticlesOfScenes : public extract::Extraction {
         emitter.lifeSpread = 0.5;
     }
 
-    ecs::Entity addEmitter(const dvec3& position, const scene::ParticleEmitter& component) {
+    ecs::Entity addEmitter(const dvec3& position, const particles::ParticleEmitter& component) {
         const ecs::Entity entity = world.registry.create();
         world.registry.add(entity, scene::LocalTransform{{position}});
-        world.registry.add(entity, component);
+        particles::addEmitter(world.registry, entity, component);
         return entity;
     }
 
@@ -57,7 +57,7 @@ class ParticlesOfScenes : public extract::Extraction {
         request.exposure = scene::computeExposure({.exposureSeconds = 0.1}, seconds);
     }
 
-    scene::ParticleEmitter emitter;
+    particles::ParticleEmitter emitter;
 };
 
 TEST_F(ParticlesOfScenes, AFramesRowsDoNotDependOnTheFramesBeforeIt) {
@@ -81,7 +81,7 @@ TEST_F(ParticlesOfScenes, ParticlesAreSortedFarToNearAcrossEmitters) {
     emitter.coneDegrees = 180.0;
     emitter.radius = 2.0;
     addEmitter({0, 0, -10}, emitter);
-    scene::ParticleEmitter second = emitter;
+    particles::ParticleEmitter second = emitter;
     second.seed = 1;
     addEmitter({0, 0, -11}, second);
     const ParticleTables tables = extractAll();
@@ -189,7 +189,7 @@ TEST_F(ParticlesOfScenes, CamerasStandOnBothSidesOfAJumpAndAsFarAsScalesReach) {
 
 TEST_F(ParticlesOfScenes, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeting) {
     world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
-    world.assets.textures.push_back({.image = 0, .onParticles = true});
+    world.assets.textures.push_back({.image = 0, .isLoose = true});
     emitter = {};
     emitter.bursts = {{.seconds = 1.9, .count = 1}};
     emitter.lifeSeconds = 4.0;
@@ -197,7 +197,7 @@ TEST_F(ParticlesOfScenes, WaysHoldTurnsAndGrowthAndThoseThatComeOrFlashAreFleeti
     emitter.colors.fill(vec4(1.0f));
     setTime(2.1);
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
-    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
+    auto& component = world.registry.get<particles::ParticleEmitter>(entity);
     EXPECT_EQ(extractAll().longestWayPx, 0.0f);
     EXPECT_FALSE(extractAll().areFleeting);
     component.spin = 10.0;
@@ -272,7 +272,7 @@ TEST_F(ParticlesOfScenes, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersN
     };
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     world.registry.add(entity, scene::Name{"chimney"});
-    auto& component = world.registry.get<scene::ParticleEmitter>(entity);
+    auto& component = world.registry.get<particles::ParticleEmitter>(entity);
     component.texture = 0;
     expectRefused("chimney", "texture 0");
     component = emitter;
@@ -290,7 +290,7 @@ TEST_F(ParticlesOfScenes, BadEmittersAndTooManyParticlesAreRefusedByTheEmittersN
 
 TEST_F(ParticlesOfScenes, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApart) {
     world.assets.images.push_back({"puff", 8, 8, std::vector<uint8_t>(256, 255)});
-    world.assets.textures.push_back({.image = 0, .onParticles = true});
+    world.assets.textures.push_back({.image = 0, .isLoose = true});
     emitter = {};
     emitter.bursts = {{.seconds = 1.95, .count = 1}};
     emitter.sizeBirth = emitter.sizeDeath = 1.0;
@@ -298,7 +298,8 @@ TEST_F(ParticlesOfScenes, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApa
     setTime(2.1);
     const ecs::Entity entity = addEmitter({0, 0, -10}, emitter);
     const auto countParts = [&](double metresInTheExposure) {
-        world.registry.get<scene::ParticleEmitter>(entity).velocity.x = metresInTheExposure / 0.1;
+        world.registry.get<particles::ParticleEmitter>(entity).velocity.x =
+            metresInTheExposure / 0.1;
         return extractAll().parts;
     };
     EXPECT_EQ(countParts(0.0), 1u);
@@ -306,7 +307,7 @@ TEST_F(ParticlesOfScenes, PicturesTakeAsManyPartsAsTheyAreQuartersOfTheirSizeApa
     EXPECT_EQ(countParts(0.26), 2u);
     EXPECT_EQ(countParts(0.74), 3u);
     EXPECT_EQ(countParts(9.0), shader::kMaxParticleParts);
-    world.registry.get<scene::ParticleEmitter>(entity).texture = scene::kNone;
+    world.registry.get<particles::ParticleEmitter>(entity).texture = scene::kNone;
     EXPECT_EQ(countParts(9.0), 1u) << "streaks need none";
 }
 
@@ -366,8 +367,8 @@ TEST_F(ParticleInstants, InstantsAreLimitedByTheBlendTheMethodAndTheMemory) {
     limits = kLimits;
     limits.findsInstants = false;
     EXPECT_FALSE(plan(limits));
-    for (auto [entity, component] : world.registry.view<scene::ParticleEmitter>())
-        component.blend = scene::ParticleBlend::Add;
+    for (auto [entity, component] : world.registry.view<particles::ParticleEmitter>())
+        component.blend = particles::ParticleBlend::Add;
     ASSERT_TRUE(plan());
     EXPECT_EQ(plan()->partCount, 1u);
     EXPECT_EQ(plan()->instantCount, 15u);

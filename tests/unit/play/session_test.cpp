@@ -5,6 +5,7 @@
 #include "game/play/loop/numbered_file.h"
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/settings_keeper.h"
+#include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
 #include "tests/support/outcomes.h"
 #include "tests/support/temp_folder.h"
@@ -363,7 +364,7 @@ TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
         input.setKey(key, true);
         return explainIdleKeys(input.take(), facts, settings);
     };
-    const KeyFacts plays{.hasEnvironment = true, .hasParticles = true, .speed = 0.5};
+    const KeyFacts plays{.speed = 0.5};
     settings.split = true;
     for (const Key key :
          {Key::M,
@@ -392,9 +393,12 @@ TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
     EXPECT_EQ(explain(Key::Digit6, photo), "truth has smooth edges without help");
     settings.method = "sharp";
     EXPECT_NE(explain(Key::B, plays), "");
-    const KeyFacts bare{.speed = 1.0};
-    for (const Key key : {Key::Digit8, Key::Digit0, Key::Slash})
-        EXPECT_NE(explain(key, bare), "") << int(key);
+    KeyFacts bare{.speed = 1.0};
+    for (const EffectSwitch& effect : listEffectSwitches())
+        bare.idleEffects.push_back(effect.explainIdle ? effect.explainIdle(scene::World()) : "");
+    EXPECT_EQ(explain(Key::Digit8, bare), "the scene has no sky; --sky adds one");
+    EXPECT_EQ(explain(Key::Digit0, bare), "the scene has no particles");
+    EXPECT_NE(explain(Key::Slash, bare), "");
     EXPECT_EQ(explain(Key::Comma, bare), "");
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/particle_emitter.h"
+#include "modules/particles/particle_emitter.h"
 
 #include "engine/math/bounds.h"
+#include "engine/scene/recorded_motion.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -11,7 +12,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace shutter::scene {
+namespace shutter::particles {
 
 namespace {
 
@@ -247,6 +248,11 @@ core::Status validateEmitter(const ParticleEmitter& emitter) {
     return validateColors(emitter.colors);
 }
 
+void addEmitter(ecs::Registry& registry, ecs::Entity entity, ParticleEmitter emitter) {
+    registry.add(entity, scene::NeedsPast{findLongestLife(emitter)});
+    registry.add(entity, std::move(emitter));
+}
+
 double findLongestLife(const ParticleEmitter& emitter) {
     return emitter.lifeSeconds * (1.0 + emitter.lifeSpread);
 }
@@ -267,4 +273,4 @@ listLiving(const ParticleEmitter& emitter, double open, double close) {
     return lister.take();
 }
 
-} // namespace shutter::scene
+} // namespace shutter::particles

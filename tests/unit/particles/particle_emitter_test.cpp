@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/particle_emitter.h"
+#include "modules/particles/particle_emitter.h"
 #include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
@@ -12,10 +12,11 @@
 #include <utility>
 #include <vector>
 
-namespace shutter::scene {
+namespace shutter::particles {
 namespace {
 
 using math::dvec3;
+using scene::kNan;
 
 ParticleEmitter makeEmitter(double perSecond) {
     ParticleEmitter emitter;
@@ -171,4 +172,4 @@ TEST(ParticleEmission, BadValuesAreRefusedByName) {
 }
 
 } // namespace
-} // namespace shutter::scene
+} // namespace shutter::particles

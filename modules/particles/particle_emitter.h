@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/ecs/registry.h"
 #include "engine/math/math.h"
 #include "engine/scene/assets.h"
 
@@ -13,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace shutter::scene {
+namespace shutter::particles {
 
 /// Most particles that a picture shows.
 inline constexpr size_t kMaxParticles = 65536;
@@ -57,12 +58,17 @@ struct ParticleEmitter {
     /// [0, 1]. For lit particles the colour is the reflectance.
     std::array<math::vec4, 3> colors{
         math::vec4(1.0f), math::vec4(1.0f), math::vec4(1.0f, 1.0f, 1.0f, 0.0f)};
-    AssetIndex texture = kNone; ///< of Texture::onParticles; kNone: round, soft towards the rim
+    scene::AssetIndex texture =
+        scene::kNone; ///< of Texture::isLoose; scene::kNone: round, soft towards the rim
     ParticleBlend blend = ParticleBlend::Alpha;
     double softMetres = 0.0; ///< fades this far before a surface, [0, 1e6]
     bool lit = false; ///< by lights, without shadows, and by the environment; else it shines itself
     uint32_t seed = 0; ///< of all that is random
 };
+
+/// Adds the emitter to an entity, and scene::NeedsPast with the longest life: particles start from
+/// where their emitter was at their birth.
+void addEmitter(ecs::Registry& registry, ecs::Entity entity, ParticleEmitter emitter);
 
 /// Error: one sentence that names the field and the fault.
 [[nodiscard]] core::Status validateEmitter(const ParticleEmitter& emitter);
@@ -87,4 +93,4 @@ struct ParticleBirth {
 [[nodiscard]] core::Result<std::vector<ParticleBirth>>
 listLiving(const ParticleEmitter& emitter, double open, double close);
 
-} // namespace shutter::scene
+} // namespace shutter::particles
