@@ -282,7 +282,6 @@ core::Status Renderer::submitFrame(
         if (!computed)
             return computed.error();
         moving = std::move(computed).value();
-        moving->jitterPx = math::vec2(context.colorJitterPx);
     }
 
     const auto shading = extractShading(
@@ -307,7 +306,10 @@ core::Status Renderer::submitFrame(
         SHUTTER_TRY(inRaster.extract(others, describeOverlays(context, needs), false));
     context.rasterHasOverlays = !inRaster.empty();
     SHUTTER_TRY(extractForEffects(context, needs, features.shading));
-    // Now the jitter of the effects' colour is known. Pictures with overlays are nobody's history.
+    // Only now is the jitter of the effects' colour known: an effect may have removed the raster's.
+    if (moving)
+        moving->jitterPx = math::vec2(context.colorJitterPx);
+    // Pictures with overlays are nobody's history.
     if (request.wantPicture) {
         const OverlayExtract source = describeOverlays(context, needs);
         SHUTTER_TRY(over.extract(needs.taken.takers, source, true));

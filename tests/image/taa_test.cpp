@@ -405,6 +405,7 @@ TEST_F(AdaptiveLaw, RaysStartWhereAPictureThatIsMovedInThePixelSamples) {
     scene.mRaysPerPixel = std::numeric_limits<float>::infinity();
     const double one = image::computePsnr(scene.draw(AntiAliasing::None), expected);
     EXPECT_GT(image::computePsnr(scene.draw(AntiAliasing::Box), expected), one + 6.0);
+    EXPECT_GT(image::computePsnr(scene.draw(AntiAliasing::Taa), expected), one + 5.0);
 }
 
 TEST_F(TaaLaw, ASecondRasterMakesSilhouettesNoWorse) {
