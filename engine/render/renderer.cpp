@@ -564,7 +564,7 @@ std::vector<Renderer::EffectPasses> Renderer::declareEffects(
         // frames, which the budget is for.
         if (one.readsLastRaster && !last)
             last = declareOther(mLastRaster, "last G-buffer", *one.effect, needs.lastRaster);
-        EffectPasses& own = passes.emplace_back(one.effect, graph.passes().size());
+        EffectPasses& own = passes.emplace_back(EffectPasses{one.effect, graph.passes().size()});
         if (one.readsSecondRaster && !second)
             second =
                 declareOther(mSecondRaster, "second G-buffer", *one.effect, needs.secondRaster);
