@@ -21,9 +21,9 @@ SUITES_WITH_EDGES = ("edges", "lens")
 # Of methods whose error falls with each sample, these counts; of all others the default.
 SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised": (1, 4)}
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
-SHOWN_METRICS = ("psnr", "linearPsnr", "ssim", "flip", "flicker", "standingFlicker")
-# With many shots each metric takes a table, so these are written only where a section has one shot.
-METRICS_OF_ONE_SHOT = ("ssim",)
+SHOWN_METRICS = ("psnr", "linearPsnr", "flip", "flicker", "standingFlicker")
+# With many shots each column takes a table, so these are left out there for what says as much.
+REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "frame": "effect"}
 TIMES = {"frame": "frame, ms", "effect": "effect, ms"}
 DECIMALS = {"dB": 2, "": 4}
 MAX_COLUMNS = 120
@@ -96,14 +96,20 @@ def describe_pixel(suite, pixel):
     return [f"--pixel {pixel}"] if (pixel == "box") != (suite in SUITES_WITH_EDGES) else []
 
 
-def describe_run(results, is_timed):
-    revision, device, machine = results["revision"], results["device"], results["machine"]
+def describe_device(results):
+    return f"{results['device']['name']}, {results['device']['driver']}"
+
+
+def describe_run(results, is_timed, has_device):
+    revision, machine = results["revision"], results["machine"]
     changed = " with uncommitted changes" if revision["dirty"] else ""
-    times = f"times on {machine['cores']} cores of {machine['cpu']}" if is_timed else "times left out"
-    conditions = (f"on {results['created'][:10]}, revision {revision['git']}{changed}; "
-                  f"{device['name']}, {device['driver']}; {times}")
+    conditions = [f"on {results['created'][:10]}, revision {revision['git']}{changed}"]
+    if has_device:
+        conditions.append(describe_device(results))
+    if is_timed:
+        conditions.append(f"times on {machine['cores']} cores of {machine['cpu']}")
     return "\n  ".join([f"- `{' '.join(['shutter bench', *results['options']])}`",
-                        *textwrap.wrap(conditions, MAX_COLUMNS - 2, break_on_hyphens=False)])
+                        *textwrap.wrap("; ".join(conditions), MAX_COLUMNS - 2, break_on_hyphens=False)])
 
 
 def describe_truth(entry):
@@ -115,12 +121,12 @@ def describe_truth(entry):
     return f"`{truth['method']}`, up to {truth['mostInstants']} samples, {truth['maxStepPx']} px apart"
 
 
-def add_run(sections, folder, results, is_timed):
+def add_run(sections, folder, results, is_timed, has_device):
     settings = results["settings"]
     size = f"{settings['width']}x{settings['height']}"
     key = (results["suite"], settings["pixel"], size, settings.get("truthSamples"))
     section = sections.setdefault(key, Section())
-    section.runs[describe_run(results, is_timed)] = True
+    section.runs[describe_run(results, is_timed, has_device)] = True
     # Films have metrics of their own, although the results list those of pictures too.
     metrics = {metric["id"]: metric for metric in results.get("temporalMetrics") or results["metrics"]}
     shown = [metrics[name] for name in SHOWN_METRICS if name in metrics]
@@ -140,11 +146,14 @@ def add_run(sections, folder, results, is_timed):
             section.add(folder, shot, measurement, smoothing, cells)
 
 
-def sort_rows(section):
-    """By methods as they were measured, then by sample counts; anti-aliasing as it was measured."""
+def list_rows(section):
+    """Those that hold half of the shots or more: by methods as they were measured, then by sample counts;
+    anti-aliasing as it was measured."""
     methods = list(dict.fromkeys(method for method, _, _ in section.rows))
     smoothings = list(dict.fromkeys(smoothing for _, _, smoothing in section.rows))
-    return sorted(section.rows, key=lambda row: (methods.index(row[0]), row[1] or 0, smoothings.index(row[2])))
+    rows = [key for key, row in section.rows.items()
+            if 2 * len({shot for shot, _ in row}) >= len(section.shots)]
+    return sorted(rows, key=lambda row: (methods.index(row[0]), row[1] or 0, smoothings.index(row[2])))
 
 
 def table_lines(section, corner, headings, keys):
@@ -152,7 +161,7 @@ def table_lines(section, corner, headings, keys):
     has_smoothing = len({smoothing for _, _, smoothing in section.rows}) > 1
     head = [corner] + (["`--aa`"] if has_smoothing else []) + headings
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    for method, samples, smoothing in sort_rows(section):
+    for method, samples, smoothing in list_rows(section):
         row = section.rows[method, samples, smoothing]
         label = f"`{method}`" + (f", {samples}" if method in SHOWN_COUNTS else "")
         cells = [label] + ([f"`{smoothing}`"] if has_smoothing else []) + [row.get(key, "") for key in keys]
@@ -171,7 +180,7 @@ def section_lines(key, section):
                              [(shots[0], name) for name in columns])
         return lines + [""]
     for name, heading in section.columns.items():
-        if name in METRICS_OF_ONE_SHOT:
+        if REPLACED_WITH_MANY_SHOTS.get(name) in section.columns:
             continue
         lines += [f"{heading}:", ""]
         lines += table_lines(section, "method", [f"`{shot}`" for shot in shots], [(shot, name) for shot in shots])
@@ -181,10 +190,11 @@ def section_lines(key, section):
 
 def make_page(folders, timed):
     sections = {}
-    for folder in folders:
-        results = read_results(folder)
+    runs = [(folder, read_results(folder)) for folder in folders]
+    devices = {describe_device(results) for _, results in runs}
+    for folder, results in runs:
         try:
-            add_run(sections, folder, results, folder in timed)
+            add_run(sections, folder, results, folder in timed, len(devices) > 1)
         except (KeyError, TypeError, AttributeError) as error:
             file = folder / "results.json"
             raise Refusal(f"{file} does not follow game/bench/results.schema.json: {error}") from error
@@ -193,9 +203,12 @@ def make_page(folders, timed):
         "",
         "Written by `scripts/figures.py` from the results of the runs that each section names; change nothing here.",
         "[Measuring](measuring.md#numbers) has the commands, [bench](../game/bench/README.md) what they measure. A",
-        "method followed by N has N samples per pixel, the others their default.",
+        "method followed by N has N samples per pixel, the others their default. Methods that a suite has in fewer",
+        "than half of its shots are left out.",
         "",
     ]
+    if len(devices) == 1:
+        lines += [f"Device: {devices.pop()}.", ""]
     for key, section in sections.items():
         lines += section_lines(key, section)
     return "\n".join(lines).rstrip("\n") + "\n"
