@@ -153,7 +153,8 @@ struct MotionBlurOutputs {
     graph::ImageHandle color; ///< RGBA16F: the blurred picture
     /// One for each of MotionBlurInputs::surfaces, with its words; empty: the method leaves none.
     std::vector<graph::BufferHandle> surfaces;
-    std::vector<View> views; ///< those of the method, README.md, "Debug views"
+    /// Those of Method::views; by `hybrid` also reveal_id, which the debug view `unresolved` reads.
+    std::vector<View> views;
 
     /// Invalid: the method has no such view.
     [[nodiscard]] graph::ImageHandle view(std::string_view name) const {

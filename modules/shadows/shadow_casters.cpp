@@ -69,7 +69,7 @@ dmat3 makeShape(const dmat4& worldFromObject, const math::Bounds& bounds) {
     return std::isfinite(trace) && trace > 0.0 ? shape / trace : dmat3(1.0);
 }
 
-/// Where a shape is between those of shutter open, raster instant and close, as ShadowDraw has it.
+/// Blend factor among the shapes at open, raster instant and close (ShadowDraw::shapeShift).
 float findShapeShift(const extract::ShutterTimes& times, double s) {
     const double end = s < times.raster ? times.open : times.close;
     if (end == times.raster)

@@ -167,7 +167,7 @@ class Planner {
         });
     }
 
-    /// Where movers are over the exposure; the largest in the picture have parts of it first.
+    /// Finds the poses of movers during the exposure. The largest on screen get parts of it first.
     void followMovers() {
         if (!mBlurs)
             return;

@@ -42,7 +42,7 @@ struct HostSettings {
     bool isOff = false; ///< the preset is "off"
 };
 
-/// Null: those of gather.
+/// Null: shutterBlurDefaultSettings().
 [[nodiscard]] core::Result<HostSettings> convert(const ShutterBlurSettings* given);
 
 [[nodiscard]] core::Result<HostPlan> convert(const ShutterBlurPlan* given);

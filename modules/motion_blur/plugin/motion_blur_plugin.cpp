@@ -199,8 +199,8 @@ void MotionBlurPlugin::declare(render::PictureContext& context) {
         inputs.instantMotions = mInstantMotions.declare(context);
     const bool keepsOnly = onlyKeeps(context.facts);
     const bool standsIn = mStandIn.has_value();
-    // Counts of blocks choose how the next frames' still pixels are copied, whether or not they are
-    // read otherwise.
+    // Block counts are read back with every picture: they choose how static pixels of later frames
+    // are copied.
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
     inputs.wantsMethodCounters = context.facts.countersWanted;
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
