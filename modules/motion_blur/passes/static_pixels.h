@@ -4,8 +4,7 @@
 // filters write to a separate picture and their blocks are copied back, so that static pixels are
 // not touched; or, if the sharp picture is stored for the next frame, the filters read the stored
 // copy and write over the picture. The first costs the same whatever moves (1.1 ms at 1280x720 on
-// lavapipe), the second in proportion to what moves (4 ms where all does), the third nothing:
-// passes.md, "Still pixels".
+// lavapipe), the second in proportion to what moves (4 ms where all does), the third nothing.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
