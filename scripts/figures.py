@@ -23,7 +23,7 @@ SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised"
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
 SHOWN_METRICS = ("psnr", "linearPsnr", "flip", "flicker", "standingFlicker")
 # With many shots each column takes a table, so these are left out there for what says as much.
-REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "frame": "effect"}
+REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "flip": "linearPsnr", "frame": "effect"}
 TIMES = {"frame": "frame, ms", "effect": "effect, ms"}
 DECIMALS = {"dB": 2, "": 4}
 MAX_COLUMNS = 120
