@@ -16,7 +16,7 @@ from pathlib import Path
 import cluster as slurm
 
 SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
-# A longer film than a test should wait for: see tests/README.md.
+# Another film than the default, which is as long as a test may take.
 SCENE = os.environ.get("SHUTTER_FILM_SCENE", os.environ["SHUTTER_ASSETS"] + "/vase.glb")
 METHOD = os.environ.get("SHUTTER_FILM_METHOD", "accumulate")
 FRAMES = int(os.environ.get("SHUTTER_FILM_FRAMES", "16"))
