@@ -20,10 +20,12 @@ SUITES = ("paper", "dial", "hard", "sequence", "edges", "lens", "own")
 SUITES_WITH_EDGES = ("edges", "lens")
 # Of methods whose error falls with each sample, these counts; of all others the default.
 SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised": (1, 4)}
+# Intermediate steps of the suite dial.
+LEFT_OUT = ("hybrid_share_25", "hybrid_share_50", "adaptive_rays_2", "adaptive_rays_50")
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
 SHOWN_METRICS = ("psnr", "linearPsnr", "flip", "flicker", "standingFlicker")
 # With many shots each column takes a table, so these are left out there for what says as much.
-REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "flip": "linearPsnr", "frame": "effect"}
+REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "flip": "psnr", "frame": "effect"}
 TIMES = {"frame": "frame, ms", "effect": "effect, ms"}
 DECIMALS = {"dB": 2, "": 4}
 MAX_COLUMNS = 120
@@ -78,6 +80,8 @@ def format_metric(value, unit):
 
 
 def is_shown(measurement):
+    if measurement["method"] in LEFT_OUT:
+        return False
     counts = SHOWN_COUNTS.get(measurement["method"])
     # Films have no sweep, so nothing there is marked as a default.
     return measurement.get("isDefault", True) if counts is None else measurement["samples"] in counts
@@ -204,7 +208,7 @@ def make_page(folders, timed):
         "Written by `scripts/figures.py` from the results of the runs that each section names; change nothing here.",
         "[Measuring](measuring.md#numbers) has the commands, [bench](../game/bench/README.md) what they measure. A",
         "method followed by N has N samples per pixel, the others their default. Methods that a suite has in fewer",
-        "than half of its shots are left out.",
+        "than half of its shots are left out, as are intermediate steps of the suite `dial`.",
         "",
     ]
     if len(devices) == 1:

@@ -141,6 +141,13 @@ class Figures(unittest.TestCase):
         page = self.expect_page("\n| `hybrid` | `taa` | 42.56 | 43.56 |  |\n", of=results)
         self.assertNotIn("| `gather` |", page)
 
+    def test_intermediate_steps_of_the_dial_are_left_out(self):
+        results = example_results.make("paper")
+        for measurement in results["cases"][0]["measurements"]:
+            if measurement["method"] == "mcguire2012":
+                measurement["method"] = "adaptive_rays_2"
+        self.assertNotIn("adaptive_rays_2", self.expect_page("\n| `gather` |", of=results))
+
     def test_films_have_a_table_per_measure(self):
         results = example_results.make("sequence")
         results["metrics"].append(
