@@ -52,7 +52,7 @@ class PlayRecord {
     /// Mean of the last second's frames; 0 before the first.
     [[nodiscard]] double meanMilliseconds() const;
 
-    /// Renamed into place; schema in game/play/README.md, "Statistics".
+    /// As JSON, renamed into place: what follows, by the names of the members.
     [[nodiscard]] core::Status
     write(const std::filesystem::path& path, const SessionFacts& facts) const;
 
