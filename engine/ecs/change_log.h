@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which entities' components of one type may have changed: every storage has a bounded log, and a
-// returning reader gets the entries since its last visit (README.md, "Changes").
+// returning reader gets the entries since its last visit.
 #pragma once
 
 #include "engine/ecs/entity.h"

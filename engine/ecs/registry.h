@@ -25,7 +25,7 @@ template <class T> [[nodiscard]] uint32_t typeIndex() {
     return index;
 }
 
-/// Entities and their components (README.md). Structural changes are create, destroy, add and
+/// Entities and their components. Structural changes are create, destroy, add and
 /// remove; they invalidate references to components of the types concerned, and they are a CHECK
 /// failure while a view or entities() is being iterated: record them in Commands instead. Several
 /// threads may read a const registry while no thread writes it; non-const access to a component
