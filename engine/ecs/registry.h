@@ -25,11 +25,11 @@ template <class T> [[nodiscard]] uint32_t typeIndex() {
     return index;
 }
 
-/// Entities and their components. Structural changes are create, destroy, add and
-/// remove; they invalidate references to components of the types concerned, and they are a CHECK
-/// failure while a view or entities() is being iterated: record them in Commands instead. Several
-/// threads may read a const registry while no thread writes it; non-const access to a component
-/// counts as a write (changesSince).
+/// Entities and their components. Structural changes are create, destroy, add and remove; they
+/// invalidate references to components of the types concerned, and they are a CHECK failure while a
+/// view or entities() is being iterated: record them in Commands instead. Several threads may read
+/// a const registry while no thread writes it; non-const access to a component counts as a write
+/// (changesSince).
 class Registry {
   public:
     Registry() = default;
