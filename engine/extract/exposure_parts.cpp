@@ -416,7 +416,7 @@ planExposureParts(const scene::World& world, const SceneLayout& layout, const Vi
     for (const Stretch& stretch : stretches) {
         const ExposureInterval part = scene::takePart(exposure, stretch.open, stretch.close);
         const double distance = std::abs(part.raster - exposure.raster);
-        // What steps at the raster instant has stepped: of two parts as near the later one.
+        // A jump exactly at the raster instant has happened: of two equally near parts, the later.
         if (distance <= nearest)
             main = parts.size();
         nearest = std::min(nearest, distance);

@@ -89,8 +89,8 @@ struct ViewRequest {
     bool usesLens = false;
     /// Where in the lens the raster is taken from, [0, 1)^2 (aperturePoint()); nothing: its middle.
     std::optional<math::dvec2> lensPlace{};
-    /// Which of the frames whose mean is the picture this is: with usesLens each takes other pairs
-    /// (math::spreadLensPairs()). nothing: the frame is the picture.
+    /// Index of this frame among those that are averaged to a picture: with usesLens each uses
+    /// other lens samples (math::spreadLensPairs()). Nothing: the frame is the picture.
     std::optional<uint32_t> lensTurn{};
     math::vec3 background{0.0f}; ///< linear RGB for the background
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB

@@ -14,8 +14,8 @@ namespace shutter::gpu {
 
 namespace {
 
-/// Scratch memory of the builds of one submission: as much work as keeps a device busy, and no more
-/// than it does before the system takes it for hung.
+/// Scratch memory of the builds of one submission: enough to saturate the GPU, too little to
+/// trigger the watchdog of the system (TDR).
 constexpr VkDeviceSize kScratchBytes = VkDeviceSize(64) << 20;
 
 struct LoadBuild {

@@ -84,8 +84,8 @@ Edge findEdge(const State& state, const Run& run) {
         edge.src = state.lastWrite;
         edge.needed = transition || edge.src.stages != 0;
     } else {
-        // The readers waited for the last write, so behind them is behind it too, and it is
-        // available since then. What remains is to show it where it has not been shown.
+        // Readers already waited for the last write, so waiting for them suffices. The write is
+        // available; it has to be made visible to stages that have not read it.
         edge.src = {state.readers.stages, 0};
         edge.needed = true;
         const bool seen = contains(state.readers.stages, run.scope.stages) &&

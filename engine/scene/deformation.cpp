@@ -67,7 +67,7 @@ dmat4 worldFromObject(const World& world, ecs::Entity entity, double seconds) {
         return worldFromEntity(world, entity, seconds);
     SHUTTER_CHECK(!skinned->joints.empty(), "{} has a skin without joints", entity);
     const dmat4 joint = worldFromEntity(world, skinned->joints.front(), seconds);
-    // A first joint that deforms nothing may be nowhere; then the world's own origin has to do.
+    // A first joint that deforms nothing need not be finite; the world's origin is used then.
     return math::isFinite(joint) ? glm::translate(dmat4(1.0), dvec3(joint[3])) : dmat4(1.0);
 }
 

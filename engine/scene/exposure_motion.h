@@ -86,7 +86,7 @@ class ExposureMotion {
 
   private:
     [[nodiscard]] double secondsAt(double s) const;
-    /// From when the pose is that an entity has at s.
+    /// World time whose pose an entity has at s.
     [[nodiscard]] double entitySeconds(ecs::Entity entity, double s) const;
     void findCut();
     void noteComings();
@@ -95,7 +95,7 @@ class ExposureMotion {
     [[nodiscard]] double scaleTime(double seconds, double scale) const;
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
     [[nodiscard]] double yFovAt(double seconds) const;
-    /// When the lens is that which the camera has at `seconds`.
+    /// Time at which the lens is evaluated for `seconds`.
     [[nodiscard]] double lensSeconds(double seconds) const;
     [[nodiscard]] bool mayCameraMove() const;
     /// findBlurScale() times the frame's cap: the scale of the entity's motion on the screen.
@@ -104,7 +104,7 @@ class ExposureMotion {
     [[nodiscard]] bool isHeld(ecs::Entity entity) const;
     /// The same, of a mesh: its joints count.
     [[nodiscard]] bool isObjectHeld(ecs::Entity entity) const;
-    /// From when the pose is that a mesh, scaled by `screenScale`, shows at `seconds`.
+    /// World time whose pose a mesh shows at `seconds` once `screenScale` is applied.
     [[nodiscard]] double
     objectSeconds(ecs::Entity entity, double seconds, double screenScale) const;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colour of a sample that has a place in the lens. Whoever includes this has the push constants
-// `params` and `method`.
+// Colour of a lens sample. The including shader provides the push constants `params` and `method`.
 #ifndef SHUTTER_RESOLVED_LENS_COLOR_GLSL
 #define SHUTTER_RESOLVED_LENS_COLOR_GLSL
 

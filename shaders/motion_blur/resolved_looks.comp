@@ -136,8 +136,8 @@ void keepInside(inout Reach reach) {
     reach.high = clamp(reach.high, vec2(0.0f), last);
 }
 
-/// Where the block is at the instant, as the middle set sees it, and where it is as any set does of what
-/// lies between two depths at the instant, pixels: x and y least and greatest.
+/// Screen bounds of the block at the instant, over all lens sets and all surfaces between two inverse
+/// depths, pixels: least x and y, greatest x and y. Without a lens, the block itself.
 vec4 cornersOf(ivec2 block, uint instant, vec2 alongs) {
     vec2 first = vec2(block) * float(kGroupSize);
     vec4 corners = vec4(first, first + float(kGroupSize));
@@ -154,7 +154,7 @@ vec4 cornersOf(ivec2 block, uint instant, vec2 alongs) {
     return corners + margins;
 }
 
-/// How much farther than the middle set's place of the lens another's may move what lies at 1 m.
+/// Bound on how much farther any set's lens offset moves a point at 1 m than the middle set's, pixels.
 float reachOfSets(uint instant) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LensReach reach = reachOf(motions, instant / kLensSets);
@@ -322,7 +322,7 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective, uint lane
 
 /// Spread of a block's samples of one surface by lens and motion.
 struct Spread {
-    float way;     // as long as a way along which the samples would lie as close, pixels
+    float way;     // length of a straight path with the same sample spacing, pixels
     float reach;   // farthest from the block itself, pixels
     float leastPx; // least diameter of a circle of confusion
 };

@@ -91,8 +91,8 @@ SHUTTER_CONST uint kMaxBlockSamples = 32u;
 /// minimum diameter of the circles of confusion visible to the block, pixels.
 ///
 /// With a lens there are two entries per sample: the middle set's place and, where that is a
-/// plane, its change for another set (stepOfSet()): place.x is by how much the block's centre moves
-/// per zw of a place of the lens (lensOf()), and perX, two halves, is PlaneMap::slope.
+/// plane, its change for another set (stepOfSet()): place.x is the screen shift of the block's
+/// centre per unit of lens offset (zw of lensOf()), and perX, two halves, is PlaneMap::slope.
 ///
 /// What a block samples in this frame's raster at an instant: a plane (PlaneMap), or
 /// candidates.
