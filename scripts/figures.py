@@ -23,9 +23,9 @@ SHOWN_COUNTS = {"accumulate": (8, 16, 64), "truth": (1, 16, 64, 256), "denoised"
 # Intermediate steps of the suite dial.
 LEFT_OUT = ("hybrid_share_25", "hybrid_share_50", "adaptive_rays_2", "adaptive_rays_50")
 # Metrics by their order in a section. Those of pictures and of films share names where they share definitions.
-SHOWN_METRICS = ("psnr", "linearPsnr", "flip", "flicker", "standingFlicker")
+SHOWN_METRICS = ("psnr", "linearPsnr", "flicker", "standingFlicker")
 # With many shots each column takes a table, so these are left out there for what says as much.
-REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "flip": "psnr", "frame": "effect"}
+REPLACED_WITH_MANY_SHOTS = {"psnr": "linearPsnr", "frame": "effect"}
 TIMES = {"frame": "frame, ms", "effect": "effect, ms"}
 DECIMALS = {"dB": 2, "": 4}
 MAX_COLUMNS = 120
@@ -106,7 +106,7 @@ def describe_device(results):
 
 def describe_run(results, is_timed, has_device):
     revision, machine = results["revision"], results["machine"]
-    changed = " with uncommitted changes" if revision["dirty"] else ""
+    changed = "-dirty" if revision["dirty"] else ""
     conditions = [f"on {results['created'][:10]}, revision {revision['git']}{changed}"]
     if has_device:
         conditions.append(describe_device(results))
