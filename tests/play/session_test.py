@@ -161,6 +161,17 @@ class Session(PlayCase):
         self.assertGreater(set(passes_near), set(passes))
         self.assertLess(abs(middle - pinhole).mean(), 0.5 * abs(near - pinhole).mean())
 
+    def test_shift_f_says_how_it_focuses_and_photo_mode_ends_what_was_said_before_it(self):
+        script = Script().wait(2).tap("p").add(screenshot="before.png").wait()
+        script.add(key="shift", action="press").wait().tap("f").add(key="shift", action="release")
+        script.add(screenshot="said.png").wait().tap("t").tap("t").add(screenshot="after.png").wait(2)
+        self.play("gallery", script.add(window="quit"), "--method", "gather", display=False, size="320x240")
+        # Without the upper lines, which hold times.
+        before, said, after = (skimage.io.imread(self.folder / f"{name}.png")[120:].astype(int)
+                               for name in ("before", "said", "after"))
+        self.assertGreater(abs(said - before).mean(), 0.5)
+        self.assertTrue((after == before).all())
+
     def test_an_option_of_the_lens_that_changes_nothing_says_why(self):
         (self.folder / "settings.json").write_text('{"version": 1}', encoding="utf-8")
 

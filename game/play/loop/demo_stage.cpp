@@ -73,17 +73,7 @@ class DemoStage : public Stage {
         return lines;
     }
 
-    [[nodiscard]] std::vector<KeyHelp> keys() const override {
-        const DemoControlWords& words = findWords();
-        std::vector<KeyHelp> keys{
-            {"A D", words.turn},
-            {"W S", words.drive},
-            {"Space", words.action},
-            {"C", "next camera"},
-            {"E", *words.body ? fmt::format("{} in or out of the blur", words.body) : ""}};
-        std::erase_if(keys, [](const KeyHelp& key) { return key.what.empty(); }); // not used
-        return keys;
-    }
+    [[nodiscard]] std::vector<KeyHelp> keys() const override { return listDemoKeys(findWords()); }
 
     [[nodiscard]] bool readsKeysInSteps() const override { return true; }
 
@@ -106,6 +96,17 @@ class DemoStage : public Stage {
 };
 
 } // namespace
+
+std::vector<KeyHelp> listDemoKeys(const DemoControlWords& words) {
+    std::vector<KeyHelp> keys{
+        {"A D", words.turn},
+        {"W S", words.drive},
+        {"Space", words.action},
+        {"C", "next camera"},
+        {"E", *words.body ? fmt::format("{} in or out of the blur", words.body) : ""}};
+    std::erase_if(keys, [](const KeyHelp& key) { return key.what.empty(); });
+    return keys;
+}
 
 core::Result<std::unique_ptr<Stage>>
 makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options) {

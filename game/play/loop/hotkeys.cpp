@@ -23,6 +23,8 @@ constexpr std::array kPresetKeys = {
 /// Of listEffectSwitches().
 constexpr std::array kEffectKeys = {
     Key::Digit6, Key::Digit7, Key::Digit8, Key::Digit9, Key::Digit0};
+/// Of the player's own cameras.
+constexpr std::array kFlyKeys = {Key::W, Key::A, Key::S, Key::D, Key::Q, Key::E};
 
 /// The picture itself comes before the first and after the last view.
 void cycleView(std::span<const std::string> views, int step, std::string& view) {
@@ -100,16 +102,19 @@ PanelRequests applyHotkeys(
 
 std::string
 explainIdleKeys(const app::InputState& input, const KeyFacts& facts, const PlaySettings& settings) {
-    const auto pressed = [&](std::initializer_list<Key> keys) {
+    const auto isAnyPressed = [&](const auto& keys) {
         return std::any_of(keys.begin(), keys.end(), [&](Key key) {
             return input.wasPressed(key);
         });
     };
+    const auto pressed = [&](std::initializer_list<Key> keys) { return isAnyPressed(keys); };
     if (!facts.photoMethod.empty()) {
-        if (pressed({Key::M, Key::N, Key::X, Key::V, Key::C}))
+        if (pressed({Key::M, Key::N, Key::X, Key::V, Key::C}) || isAnyPressed(kPresetKeys))
             return fmt::format("photo mode draws one picture by {}; T ends it", facts.photoMethod);
     } else if (facts.stageRests && (pressed({Key::C, Key::E}) || input.wasPressed(PadButton::Y))) {
         return "C and E act when the game goes on: P, or . for one frame";
+    } else if (facts.isCameraFixed && isAnyPressed(kFlyKeys)) {
+        return "the scene moves this camera; C goes on to one that you move";
     } else if (pressed({Key::N}) && !settings.split) {
         return fmt::format("left of a split: {}; X shows it", settings.leftMethod);
     }

@@ -34,8 +34,9 @@ cycle(std::span<const std::string> choices, const std::string& current, int step
 
 /// What decides whether a key changes anything.
 struct KeyFacts {
-    std::string photoMethod; ///< that draws photo mode's picture; empty: photo mode is off
-    bool stageRests = false; ///< the stage reads keys in steps of its time, which is paused
+    std::string photoMethod;    ///< that draws photo mode's picture; empty: photo mode is off
+    bool stageRests = false;    ///< the stage reads keys in steps of its time, which is paused
+    bool isCameraFixed = false; ///< the scene moves the camera, not the player
     /// EffectSwitch::explainIdle() of each of listEffectSwitches().
     std::vector<std::string> idleEffects;
     double speed = 1.0; ///< of the game, before the keys

@@ -363,6 +363,7 @@ KeyFacts PlayLoop::describeKeys() const {
     if (mPhoto.isOn())
         facts.photoMethod = chooseSettings().method;
     facts.stageRests = mClock.isPaused() && mStage->readsKeysInSteps();
+    facts.isCameraFixed = !mStage->readsKeysInSteps() && !mStage->holdsCamera();
     for (const EffectSwitch& effect : listEffectSwitches())
         facts.idleEffects.push_back(effect.explainIdle ? effect.explainIdle(world) : "");
     facts.speed = mClock.speed();
@@ -389,6 +390,8 @@ std::vector<std::string> PlayLoop::listViews() const {
 
 void PlayLoop::apply(const PanelRequests& requests) {
     mQuit = mQuit || requests.quit;
+    if (requests.togglePause || requests.togglePhoto || requests.singleStep)
+        mMessage.clear(); // it may be of the pause, or of photo mode
     if (requests.togglePause) {
         mClock.setPaused(!mClock.isPaused());
         turnPhotoMode(false);
@@ -400,7 +403,7 @@ void PlayLoop::apply(const PanelRequests& requests) {
     if (requests.focusMiddle)
         focusOnMiddle();
     if (requests.focusOwn)
-        mSettings.lens.focusDistance = 0.0;
+        focusAsCamera();
     if (requests.savePicture)
         savePicture();
     if (requests.singleStep) {
@@ -460,9 +463,17 @@ void PlayLoop::focusOnMiddle() {
     mSettings.lens.focusDistance = std::clamp(
         distance.value_or(scene::kFarthestFocus), scene::kNearestFocus, scene::kFarthestFocus
     );
-    mMessage = distance ? fmt::format("focused at {:.4g} m", *distance) : "focused at infinity";
-    if (const std::string why = explainPinhole(); !why.empty())
-        mMessage += ", but " + why;
+    reportFocus(distance ? fmt::format("focused at {:.4g} m", *distance) : "focused at infinity");
+}
+
+void PlayLoop::focusAsCamera() {
+    mSettings.lens.focusDistance = 0.0;
+    reportFocus("focused as the camera itself does");
+}
+
+void PlayLoop::reportFocus(const std::string& focus) {
+    const std::string why = explainPinhole();
+    mMessage = why.empty() ? focus : focus + ", but " + why;
 }
 
 std::string PlayLoop::explainPinhole() const {

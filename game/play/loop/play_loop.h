@@ -84,6 +84,10 @@ class PlayLoop {
     void prepareLens();
     /// Focuses on what was in the middle of the last picture.
     void focusOnMiddle();
+    /// Focuses as the camera itself does.
+    void focusAsCamera();
+    /// Reports a new focus, and why none of it is seen.
+    void reportFocus(const std::string& focus);
     /// Why the next picture has no depth of field; empty: it has.
     [[nodiscard]] std::string explainPinhole() const;
     /// Warns a player who named a lens that it has no effect.

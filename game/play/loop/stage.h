@@ -62,6 +62,9 @@ class Stage {
     [[nodiscard]] virtual std::optional<int> score() const { return std::nullopt; }
 };
 
+/// The keys of a demo: those of the controls that have words.
+[[nodiscard]] std::vector<KeyHelp> listDemoKeys(const DemoControlWords& words);
+
 /// \param options environment and sky count, before the demo's own sky, and the node to focus on
 /// Error: an environment that cannot be read, a node that the demo lacks.
 [[nodiscard]] core::Result<std::unique_ptr<Stage>>

@@ -327,7 +327,7 @@ std::string describeState(const PanelFacts& facts, const std::string& view) {
         parts.push_back(fmt::format("photo mode: {}", facts.photoMethod));
     else if (facts.paused)
         parts.emplace_back("paused");
-    else if (facts.speed != 1.0)
+    if (facts.speed != 1.0 && !facts.photo)
         parts.push_back(fmt::format("speed {:g}", facts.speed));
     if (facts.recording)
         parts.emplace_back("recording");

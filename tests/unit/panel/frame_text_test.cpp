@@ -74,6 +74,8 @@ TEST(HudText, TheStateNamesTheViewAndAMissingOne) {
     EXPECT_EQ(describeState(facts, "depth"), "view: depth");
     facts.paused = facts.isViewMissing = true;
     EXPECT_EQ(describeState(facts, "tiles"), "paused, view: tiles, which this frame does not have");
+    facts.speed = 0.5;
+    EXPECT_EQ(describeState(facts, ""), "paused, speed 0.5");
     facts.photo = true;
     facts.photoMethod = "truth";
     facts.photoRays = 1;

@@ -5,6 +5,7 @@
 #include "game/play/loop/numbered_file.h"
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/settings_keeper.h"
+#include "game/play/loop/stage.h"
 #include "game/play/panel/effect_switches.h"
 #include "game/play/panel/panel_sections.h"
 #include "tests/support/outcomes.h"
@@ -391,6 +392,18 @@ TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
     for (const Key key : {Key::M, Key::V, Key::C})
         EXPECT_EQ(explain(key, photo), "photo mode draws one picture by truth; T ends it");
     EXPECT_EQ(explain(Key::Digit6, photo), "truth has smooth edges without help");
+    EXPECT_EQ(explain(Key::Digit3, photo), explain(Key::M, photo)) << "a preset is a method";
+    EXPECT_EQ(explain(Key::Digit3, plays), "");
+    EXPECT_EQ(explain(Key::W, plays), "");
+    KeyFacts fixed = plays;
+    fixed.isCameraFixed = true;
+    for (const Key key : {Key::W, Key::Q, Key::E})
+        EXPECT_EQ(
+            explain(key, fixed), "the scene moves this camera; C goes on to one that you move"
+        );
+    EXPECT_EQ(explain(Key::C, fixed), "");
+    fixed.photoMethod = "truth"; // whose camera flies
+    EXPECT_EQ(explain(Key::W, fixed), "");
     settings.method = "sharp";
     EXPECT_NE(explain(Key::B, plays), "");
     KeyFacts bare{.speed = 1.0};
@@ -400,6 +413,20 @@ TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
     EXPECT_EQ(explain(Key::Digit0, bare), "the scene has no particles");
     EXPECT_NE(explain(Key::Slash, bare), "");
     EXPECT_EQ(explain(Key::Comma, bare), "");
+}
+
+TEST(DemoKeys, AControlWithoutWordsHasNoRowInTheHelp) {
+    const auto join = [](const DemoControlWords& words) {
+        std::string keys;
+        for (const KeyHelp& key : listDemoKeys(words))
+            keys += fmt::format("{}: {}; ", key.key, key.what);
+        return keys;
+    };
+    EXPECT_EQ(join({"steer", "", "", ""}), "A D: steer; C: next camera; ");
+    EXPECT_EQ(
+        join({"", "drive", "brake", "car"}),
+        "W S: drive; Space: brake; C: next camera; E: car in or out of the blur; "
+    );
 }
 
 TEST(Hints, TheKeysAreShownFromTheFirstPictureAndASlowFrameDoesNotUseThemUp) {
