@@ -5,6 +5,7 @@
 #include "engine/json/json_file.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace shutter::app {
@@ -134,6 +135,17 @@ core::Result<InputScript> readInputScript(const std::filesystem::path& path, io:
     return json::readJsonFile(path, [&](const json::JsonNode& root) {
         return readScript(root, reach);
     });
+}
+
+uint64_t ScriptPlayer::countFrames() const {
+    double seconds = 0.0;
+    for (const ScriptEvent& event : mScript.events) {
+        seconds = event.seconds;
+        const auto* action = std::get_if<WindowAction>(&event.what);
+        if (action && *action == WindowAction::Quit)
+            break;
+    }
+    return static_cast<uint64_t>(std::ceil(seconds / mScript.frameSeconds)) + 1;
 }
 
 std::span<const ScriptEvent>

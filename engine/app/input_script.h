@@ -89,6 +89,9 @@ class ScriptPlayer {
     [[nodiscard]] std::span<const ScriptEvent>
     takeFrame(InputCollector& input, const math::uvec2& windowPx);
 
+    /// Frames from the start until the script is over or quits.
+    [[nodiscard]] uint64_t countFrames() const;
+
     /// All events were handed out.
     [[nodiscard]] bool isOver() const { return mNext == mScript.events.size(); }
 

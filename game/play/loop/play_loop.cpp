@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <set>
 #include <thread>
@@ -162,9 +163,22 @@ void PlayLoop::replaceMissingMethods() {
 }
 
 core::Status PlayLoop::run() {
-    while (!mQuit)
-        SHUTTER_TRY(advance());
-    return finish();
+    startProgress();
+    core::Status done;
+    while (done && !mQuit)
+        done = advance();
+    mProgress.reset(); // before an error is printed
+    return done ? finish() : done;
+}
+
+void PlayLoop::startProgress() {
+    uint64_t frames = mOptions.frames;
+    if (mScript)
+        frames = std::min(frames > 0 ? frames : UINT64_MAX, mScript->countFrames());
+    if (!mFiles.isFilming() || frames == 0)
+        return;
+    mProgress.emplace("filming", frames);
+    mProgress->printLines();
 }
 
 core::Status PlayLoop::finish() {
@@ -649,6 +663,8 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx, const PlaySettings&
 void PlayLoop::notePicture() {
     mFiles.notePicture();
     mHasDrawn = true;
+    if (mProgress)
+        mProgress->advance();
     if (mRecord.pictureCount() == kPicturesOfTheStart)
         mScreen.keepPipelines();
     mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());

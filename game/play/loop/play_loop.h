@@ -4,6 +4,7 @@
 
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
+#include "engine/core/progress.h"
 #include "game/play/loop/first_use.h"
 #include "game/play/loop/flythrough_recorder.h"
 #include "game/play/loop/hotkeys.h"
@@ -70,6 +71,8 @@ class PlayLoop {
     /// Records that a picture was submitted.
     void notePicture();
     void toggleRecording();
+    /// Reports progress from now on, if this is a film that ends by itself.
+    void startProgress();
     core::Status finish();
     core::Status writeRecord();
     /// Destroys the renderers before their resources.
@@ -117,6 +120,7 @@ class PlayLoop {
     app::FrameTime mTime;
     scene::ExposureInterval mExposure;
     std::optional<Clock::time_point> mLastTurn;
+    std::optional<core::Progress> mProgress; ///< of a film
     PlayRecord mRecord;
     FirstUse mFirstUse;
     FlythroughRecorder mRecorder;

@@ -117,6 +117,7 @@ TEST_F(InputScriptFile, EventsComeInTheFrameOfTheirTime) {
         {"time": 0.3, "resize": [320, 200]},
         {"time": 0.3, "window": "quit"}]})"));
     ScriptPlayer player(std::move(script));
+    EXPECT_EQ(player.countFrames(), 4u);
     InputCollector input;
     EXPECT_EQ(player.takeFrame(input, {400, 200}).size(), 1u);
     EXPECT_TRUE(input.take().isDown(Key::W));
