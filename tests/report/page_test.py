@@ -329,6 +329,21 @@ class Page(PageCase):
         names = [row.find_element(By.CSS_SELECTOR, "th").text.split()[0] for row in rows]
         self.assertEqual(names, [m["method"] for m in defaults])
 
+    def test_a_method_without_its_default_keeps_a_row_with_a_dash_and_the_reason(self):
+        def skip_denoised(results):
+            for case in results["cases"]:
+                case["measurements"] = [m for m in case["measurements"]
+                                        if (m["method"], m["isDefault"]) != ("denoised", True)]
+                case["skipped"].append({"method": "denoised", "samples": 1,
+                                        "reason": "the device traces no ray queries"})
+
+        self.make_page("skipped", skip_denoised)
+        rows = self.find_all("#ladder-table tbody tr")
+        self.assertTrue(rows[-1].text.startswith("denoised"), rows[-1].text)
+        self.assertIn("not measured: the device traces no ray queries", rows[-1].text)
+        self.assertIn("–", rows[-1].text)
+        self.assertEqual(sum("not measured" in row.text for row in rows), 1)
+
     def test_matrix_has_every_case_and_method_and_frames_the_best(self):
         self.open("hard")
         for metric, pick, decimals in (("psnr", max, 2), ("flip", min, 4)):

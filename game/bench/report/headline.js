@@ -151,6 +151,19 @@ function makeStrip(position, methodName) {
     return el("span", {class: "strip"}, mark);
 }
 
+/** Methods that have no row because their default was skipped in some case, with the reason. */
+function listSkippedDefaults(rows) {
+    const found = [];
+    for (const method of results.methods) {
+        const skipped = results.cases.flatMap((theCase) => theCase.skipped ?? []).find((one) =>
+            one.method === method.name && one.samples === method.default);
+        if (skipped && !rows.some((row) => row.method === method)) {
+            found.push({method, reason: skipped.reason});
+        }
+    }
+    return found;
+}
+
 /** Maps values to 0 to 1 between the least and the greatest. */
 function makeScale(values, logarithmic) {
     const usable = values.filter((v) => Number.isFinite(v) && (!logarithmic || v > 0));
@@ -199,5 +212,12 @@ function drawLadder() {
         ...others.map((m) => ({content: formatMetric(m, row.metrics[m.id]), class: "n"})),
         {content: front.has(row.method) ? "yes" : "", class: "soft"},
     ]);
-    byId("ladder-table").replaceChildren(makeTable(columns, body, {class: "ladder"}));
+    const dash = {content: "–", class: "n soft"};
+    const absent = listSkippedDefaults(rows).map(({method, reason}) => [
+        {content: methodLabel(method.name, method.default)}, dash, dash,
+        {content: "", class: "wide"}, dash, {content: `not measured: ${reason}`, class: "wide soft"},
+        ...others.map(() => dash), "",
+    ]);
+    byId("ladder-table").replaceChildren(
+        makeTable(columns, [...body, ...absent], {class: "ladder"}));
 }
