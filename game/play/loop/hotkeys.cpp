@@ -114,7 +114,7 @@ explainIdleKeys(const app::InputState& input, const KeyFacts& facts, const PlayS
     } else if (facts.stageRests && (pressed({Key::C, Key::E}) || input.wasPressed(PadButton::Y))) {
         return "C and E act when the game goes on: P, or . for one frame";
     } else if (facts.isCameraFixed && isAnyPressed(kFlyKeys)) {
-        return "the scene moves this camera; C goes on to one that you move";
+        return "this camera is the scene's; C goes on to one that you move";
     } else if (pressed({Key::N}) && !settings.split) {
         return fmt::format("left of a split: {}; X shows it", settings.leftMethod);
     }

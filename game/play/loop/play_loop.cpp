@@ -31,6 +31,8 @@ constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
 /// The keys are shown to a new player for as long, or until the panel is opened.
 constexpr double kHintSeconds = 30.0;
+/// A message is shown to a player for as long, or until the next.
+constexpr double kMessageSeconds = 15.0;
 /// Windows up to this height have text of the display's standard size.
 constexpr double kPlainHeightPx = 1080.0;
 /// The divider can be grabbed within this distance.
@@ -351,6 +353,7 @@ PanelRequests PlayLoop::drawPanel(const app::InputState& input, double wallSecon
     mHintSeconds = mSettings.showPanel
                        ? 0.0
                        : countHintDown(mHintSeconds, wallSeconds, mRecord.pictureCount() > 0);
+    endMessage(wallSeconds);
     const std::vector<HudLine> hud = mStage->hud();
     const std::vector<KeyHelp> keys = mPhotoCamera.isOut() ? listPhotoKeys() : mStage->keys();
     PanelFacts facts = describeSession();
@@ -369,6 +372,15 @@ PanelRequests PlayLoop::drawPanel(const app::InputState& input, double wallSecon
     if (std::string why = explainIdleKeys(input, describeKeys(), mSettings); !why.empty())
         mMessage = std::move(why);
     return all;
+}
+
+void PlayLoop::endMessage(double wallSeconds) {
+    if (std::exchange(mSeenMessage, mMessage) != mMessage)
+        mMessageSeconds = kMessageSeconds;
+    else if (isForPlayer())
+        mMessageSeconds = countHintDown(mMessageSeconds, wallSeconds, mRecord.pictureCount() > 0);
+    if (mMessageSeconds == 0.0)
+        mMessage.clear();
 }
 
 KeyFacts PlayLoop::describeKeys() const {

@@ -60,6 +60,8 @@ class PlayLoop {
     /// time.
     [[nodiscard]] bool isForPlayer() const;
     PanelRequests drawPanel(const app::InputState& input, double wallSeconds);
+    /// Removes a message that was shown long enough: what it states may not hold any more.
+    void endMessage(double wallSeconds);
     [[nodiscard]] KeyFacts describeKeys() const;
     /// Intermediates that the methods on the screen make.
     [[nodiscard]] std::vector<std::string> listViews() const;
@@ -117,6 +119,8 @@ class PlayLoop {
     app::StepClock mClock{kDemoStepSeconds};
     std::vector<std::string> mMethods; ///< that the device can run
     std::string mMessage;
+    std::string mSeenMessage;     ///< in the last turn
+    double mMessageSeconds = 0.0; ///< for which it is shown yet
     app::FrameTime mTime;
     scene::ExposureInterval mExposure;
     std::optional<Clock::time_point> mLastTurn;

@@ -399,7 +399,7 @@ TEST_F(Hotkeys, AKeyThatChangesNothingOnTheScreenIsExplained) {
     fixed.isCameraFixed = true;
     for (const Key key : {Key::W, Key::Q, Key::E})
         EXPECT_EQ(
-            explain(key, fixed), "the scene moves this camera; C goes on to one that you move"
+            explain(key, fixed), "this camera is the scene's; C goes on to one that you move"
         );
     EXPECT_EQ(explain(Key::C, fixed), "");
     fixed.photoMethod = "truth"; // whose camera flies
