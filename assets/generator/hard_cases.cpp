@@ -84,7 +84,7 @@ std::vector<BenchCase> makeCases() {
             "camera_dolly",
             "Camera dolly",
             "The camera runs forward: motion points away from one place, is zero there and grows "
-            "towards the border, further for near objects",
+            "towards the border, most for near objects",
             &buildCameraDollyCase,
             kYardSky,
             {29.0f, 37.0f}
@@ -120,7 +120,7 @@ std::vector<BenchCase> makeCases() {
             "self_overlap",
             "Self-overlap",
             "A coil with a ring flies and turns before the room: through its gaps it hides and "
-            "reveals parts of itself, which no object identity separates",
+            "reveals parts of itself, which object ids cannot separate",
             &buildSelfOverlapCase,
             kRoomBackground,
             {30.0f, 39.0f}

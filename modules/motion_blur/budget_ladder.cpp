@@ -128,7 +128,7 @@ void addLookupLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, dou
     // truth.
     constexpr uint32_t kTaps = 8;
     ladder.changeMethod(
-        "own_velocity", "surfaces that move over a pixel from outside", kTaps, 0.12 * cost
+        "own_velocity", "the blur beyond the outlines of movers", kTaps, 0.12 * cost
     );
 }
 

@@ -815,7 +815,7 @@ TEST_F(EmbeddedCare, DestroyingAnObjectTooEarlyIsReported) {
     ASSERT_TRUE(mBlur->record(dropped.commands(), 0, inputs, settings).ok());
     mBlur.reset();
     EXPECT_EQ(mReported.size(), 1u);
-    EXPECT_EQ(countReported("destroyed while the GPU has frame 0"), 1u);
+    EXPECT_EQ(countReported("destroyed while frame 0 is pending"), 1u);
 }
 
 } // namespace

@@ -125,8 +125,8 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() {
     for (uint32_t frame = 0; frame < mSlots.size(); ++frame)
         if (isPending(frame))
             warn(fmt::format(
-                "motion blur: destroyed while the GPU has frame {} before it, unless that was "
-                "never submitted (report that by shutterBlurMarkDone)",
+                "motion blur: destroyed while frame {} is pending on the GPU; if it was never "
+                "submitted, shutterBlurMarkDone must say so",
                 frame
             ));
     if (mChecker)

@@ -132,7 +132,7 @@ TEST(Budget, LaddersNameWhatTheyGiveUp) {
     EXPECT_EQ(levels[3].droppedQuality, "9 of 15 samples");
     EXPECT_EQ(levels[4].settings.method, &getMethod("own_velocity"));
     EXPECT_EQ(levels[4].settings.sampleCount, 8u);
-    EXPECT_EQ(levels[4].droppedQuality, "surfaces that move over a pixel from outside");
+    EXPECT_EQ(levels[4].droppedQuality, "the blur beyond the outlines of movers");
     MotionBlurSettings settings = settingsOf(&getMethod("resolved"));
     settings.secondRaster = true;
     levels = makeLevels(settings);

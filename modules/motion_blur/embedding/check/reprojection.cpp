@@ -201,11 +201,10 @@ class Reprojection {
         return Finding{
             CheckKind::Unexplained,
             fmt::format(
-                "by the last frame's depth, {} of static surfaces is not where "
-                "cameras "
-                "have it, and no single mistake explains it: hold viewFromWorld, "
-                "viewFromWorldBefore, "
-                "clipFromView and depth against what the picture was drawn with",
+                "by the last frame's depth, {} of the static pixels are not where the cameras "
+                "place them, and no single mistake explains it: hold viewFromWorld, "
+                "viewFromWorldBefore, clipFromView and depth against what the picture was drawn "
+                "with",
                 describeShare(double(mFound.other) / double(mFound.known()))
             )};
     }

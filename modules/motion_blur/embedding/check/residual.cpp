@@ -75,7 +75,9 @@ void checkOffset(
         findings.push_back({CheckKind::VectorOffset, std::move(sentence)});
     };
     const std::string what = fmt::format(
-        "static surfaces have ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
+        "the vectors of static surfaces exceed what the cameras imply by ({:.2f}, {:.2f}) px",
+        offset.x,
+        offset.y
     );
     if (!now.facts.isNative && isDeclared && !convention.vectors.haveJitter &&
         isOffsetNear(offset, jitter))
@@ -159,7 +161,7 @@ void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings) {
     findings.push_back(
         {CheckKind::Unexplained,
          fmt::format(
-             "vectors are {:.3g} px off from what the cameras imply at {} of static surfaces, "
+             "vectors are {:.3g} px off from what the cameras imply at {} of the static pixels, "
              "and no single mistake explains it: hold {}, clipFromView, depth and {} against what "
              "the picture was drawn with",
              takeMedian(still.offPx, 1).value_or(0.0),
