@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "game/blur/blur_run.h"
 #include "game/cli/commands.h"
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
     game::addInfoCommand(app, exitStatus);
     game::addPlayCommand(app, exitStatus);
     replay::addReplayCommand(app, exitStatus);
+    blur::addBlurCommand(app, exitStatus);
     game::addExternalCommands(app);
     return game::runProgram(app, argc, argv, exitStatus);
 }

@@ -14,7 +14,7 @@ namespace shutter::cli {
 
 namespace {
 
-constexpr const char* kCommands = "render, compare, info, play, replay, bench, film";
+constexpr const char* kCommands = "render, compare, info, play, replay, blur, bench, film";
 
 constexpr const char* kResting =
     R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 1, 0]}]})";

@@ -47,7 +47,8 @@ GAME = read_rows({
     "bench/sequence": "shot options demos play/loop bench/suites",
     "bench": "shot options bench/report bench/suites bench/sequence",
     "replay": "shot output options",
-    "cli": "shot output options play/panel play/loop replay",
+    "blur": "shot output options replay",
+    "cli": "shot output options play/panel play/loop replay blur",
     "examples": "",
 })
 
