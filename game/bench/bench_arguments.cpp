@@ -224,10 +224,15 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
             "--limit",
             arguments.limitSeconds,
             "skip sample counts, except defaults, whose picture takes longer, seconds; default: 30 "
-            "to "
-            "120, by suite"
+            "to 120, by suite"
         )
-        ->check(CLI::PositiveNumber);
+        ->check(
+            [](const std::string& text) {
+                const auto number = core::parseNumber(text);
+                return number && *number > 0.0 ? "" : text + " must be above 0";
+            },
+            "POSITIVE"
+        );
     command
         .add_option(
             "--truth-samples",

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -85,6 +86,37 @@ std::string explainValues(const CLI::Option& option) {
     return {};
 }
 
+/// The parser's error, its frequent kinds worded as our own refusals are.
+std::string reword(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const size_t colon = std::min(text.find(": "), text.size());
+    if (error.get_name() == "ArgumentMismatch" && text.ends_with(" missing"))
+        return text.substr(0, colon) + " needs a value";
+    // "--frames: Value 0 not in range 1 to 9"
+    constexpr std::string_view kOutside = " not in range ";
+    constexpr std::string_view kValue = ": Value ";
+    const size_t outside = text.find(kOutside);
+    if (outside != std::string::npos && text.substr(colon).starts_with(kValue)) {
+        const size_t value = colon + kValue.size();
+        return fmt::format(
+            "{}: {} must be {}",
+            text.substr(0, colon),
+            text.substr(value, outside - value),
+            text.substr(outside + kOutside.size())
+        );
+    }
+    // "Could not convert: --samples = 99999999999"
+    constexpr std::string_view kEquals = " = ";
+    const size_t equals = text.find(kEquals);
+    if (error.get_name() == "ConversionError" && equals != std::string::npos && colon < equals) {
+        const std::string option = text.substr(colon + 2, equals - colon - 2);
+        const std::string value = text.substr(equals + kEquals.size());
+        return core::parseNumber(value) ? fmt::format("{}: {} is too large", option, value)
+                                        : fmt::format("{} does not take '{}'", option, value);
+    }
+    return text;
+}
+
 /// The command line's error in one sentence. A misspelt word counts first: others may follow from
 /// it.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
@@ -118,10 +150,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
         if (std::string wrong = explainValues(*option); !wrong.empty())
             return wrong;
     }
-    const std::string text = error.what();
-    if (error.get_name() == "ArgumentMismatch" && text.ends_with(" missing"))
-        return text.substr(0, text.find(':')) + " needs a value";
-    return text;
+    return reword(error);
 }
 
 } // namespace
