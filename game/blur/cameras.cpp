@@ -63,6 +63,9 @@ PictureCamera readCamera(const JsonNode& node, double aspect) {
     const auto clip = object.find("clipFromView");
     camera.clipFromView =
         clip ? readMatrix(*clip) : readProjection(object.require("fieldOfView"), aspect);
+    for (const glm::dmat4& matrix : {camera.viewFromWorld, camera.clipFromView})
+        if (!(std::abs(glm::determinant(matrix)) > 0.0))
+            node.fail("has a matrix that is singular");
     return camera;
 }
 

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,23 +24,51 @@ namespace {
 using core::makeError;
 
 /// Channels that belong together. They may follow a layer's name: "ViewLayer.Depth.Z".
-using Names = std::span<const std::string_view>;
+using Names = std::vector<std::string_view>;
 
-constexpr std::array<std::string_view, 4> kRgba{"R", "G", "B", "A"};
-constexpr std::array<std::string_view, 4> kCombined{
-    "Combined.R", "Combined.G", "Combined.B", "Combined.A"};
-constexpr std::array<std::string_view, 4> kBlender{"Vector.X", "Vector.Y", "Vector.Z", "Vector.W"};
-constexpr std::array<std::string_view, 2> kForward{"forward.u", "forward.v"};
-constexpr std::array<std::string_view, 2> kBackward{"backward.u", "backward.v"};
-constexpr std::array<std::array<std::string_view, 2>, 6> kPairs{
-    {{"motion.x", "motion.y"},
-     {"motion.X", "motion.Y"},
-     {"u", "v"},
-     {"X", "Y"},
-     {"x", "y"},
-     {"R", "G"}}};
-constexpr std::array<std::string_view, 5> kDepths{"Depth.Z", "Depth.V", "depth.Z", "Z", "R"};
-constexpr std::array<std::string_view, 3> kIds{"mesh_id", "id", "R"};
+const std::vector<Names>& listColors() {
+    static const std::vector<Names> kNames{
+        {"Combined.R", "Combined.G", "Combined.B", "Combined.A"},
+        {"R", "G", "B", "A"},
+        {"R", "G", "B"}};
+    return kNames;
+}
+
+const std::vector<Names>& listDepths() {
+    static const std::vector<Names> kNames{{"Depth.Z"}, {"Depth.V"}, {"depth.Z"}, {"Z"}, {"R"}};
+    return kNames;
+}
+
+const std::vector<Names>& listIds() {
+    static const std::vector<Names> kNames{{"mesh_id"}, {"id"}, {"R"}};
+    return kNames;
+}
+
+/// Channels of motion: first those to the previous frame, then those to the next.
+struct MotionRow {
+    Vectors kind;
+    bool isTelling; ///< the names alone tell the kind
+    Names names;
+};
+
+std::vector<MotionRow> listMotions() {
+    std::vector<MotionRow> rows{
+        {Vectors::Exposure, true, {"motion.x", "motion.y"}},
+        {Vectors::Blender, true, {"Vector.X", "Vector.Y", "Vector.Z", "Vector.W"}},
+        {Vectors::Blender, false, {"R", "G", "B", "A"}},
+        {Vectors::Nuke, true, {"backward.u", "backward.v", "forward.u", "forward.v"}},
+        {Vectors::Nuke, true, {"forward.u", "forward.v"}},
+        {Vectors::Nuke, true, {"backward.u", "backward.v"}}};
+    for (const Vectors kind : {Vectors::Exposure, Vectors::Previous, Vectors::Next})
+        for (const Names& names : std::initializer_list<Names>{
+                 {"motion.x", "motion.y"},
+                 {"motion.X", "motion.Y"},
+                 {"u", "v"},
+                 {"X", "Y"},
+                 {"R", "G"}})
+            rows.push_back({kind, false, names});
+    return rows;
+}
 
 struct Picture {
     std::filesystem::path file;
@@ -57,7 +87,7 @@ core::Result<Picture> readPicture(const std::filesystem::path& file) {
     Picture picture{file, std::move(stored).value()};
     std::vector<std::string>& names = picture.stored.image.channelNames;
     for (uint32_t c = uint32_t(names.size()); c < picture.stored.image.channels; ++c)
-        names.emplace_back(c < kRgba.size() ? kRgba[c] : "");
+        names.emplace_back(c < 4 ? std::string(1, "RGBA"[c]) : "");
     return picture;
 }
 
@@ -84,8 +114,8 @@ core::Result<std::optional<uint32_t>> findChannel(const Picture& picture, std::s
     return found;
 }
 
-/// The channels of all names; empty: one of them is missing.
-core::Result<std::vector<uint32_t>> findChannels(const Picture& picture, Names names) {
+/// The channels of all names. Empty: one of them is missing.
+core::Result<std::vector<uint32_t>> findChannels(const Picture& picture, const Names& names) {
     std::vector<uint32_t> channels;
     for (const std::string_view name : names) {
         const auto channel = findChannel(picture, name);
@@ -98,13 +128,24 @@ core::Result<std::vector<uint32_t>> findChannels(const Picture& picture, Names n
     return channels;
 }
 
-core::Error explainMissing(const Picture& picture, std::string_view wanted) {
+core::Error explainMissing(const Picture& picture, const Names& wanted) {
     return makeError(
         "'{}' has no channels {}, it has {}",
         picture.file.string(),
-        wanted,
+        fmt::join(wanted, ", "),
         fmt::join(picture.names(), ", ")
     );
+}
+
+/// The channels of the first names that the picture has. Error: it has none of them.
+core::Result<std::vector<uint32_t>>
+findFirst(const Picture& picture, const std::vector<Names>& choices, const Names& wanted) {
+    for (const Names& names : choices) {
+        auto channels = findChannels(picture, names);
+        if (!channels || !channels.value().empty())
+            return channels;
+    }
+    return explainMissing(picture, wanted);
 }
 
 /// Calls `take` with each pixel's index and the channels' values. Error: a value is NaN, or
@@ -137,17 +178,10 @@ core::Status readPixels(
 }
 
 core::Status readColor(const Picture& picture, Passes& passes) {
-    core::Result<std::vector<uint32_t>> channels = std::vector<uint32_t>();
-    for (const Names names : {Names(kCombined), Names(kRgba), Names(kRgba).first(3)}) {
-        channels = findChannels(picture, names);
-        if (!channels)
-            return channels.error();
-        if (!channels.value().empty())
-            break;
-    }
-    if (channels.value().empty())
-        return explainMissing(picture, "R, G, B");
-    passes.hasAlpha = channels.value().size() == kRgba.size();
+    const auto channels = findFirst(picture, listColors(), {"R", "G", "B"});
+    if (!channels)
+        return channels.error();
+    passes.hasAlpha = channels.value().size() == 4;
     passes.isDisplayEncoded = picture.stored.isDisplayEncoded;
     passes.color.assign(size_t{passes.width} * passes.height, glm::vec4(0.0f));
     return readPixels(picture, channels.value(), false, [&](size_t i, const auto& values) {
@@ -160,61 +194,37 @@ core::Status readColor(const Picture& picture, Passes& passes) {
     });
 }
 
-/// Channels of a picture of motion, and what they are.
 struct MotionChannels {
-    Vectors kind = Vectors::Exposure;
+    Vectors kind;
     std::vector<uint32_t> previous; ///< two, or none
     std::vector<uint32_t> next;
 };
 
 core::Result<MotionChannels> findMotion(const Picture& picture, const PassOptions& options) {
-    MotionChannels found;
-    const auto search = [&](Names names, std::vector<uint32_t>& channels) -> core::Status {
-        auto all = findChannels(picture, names);
-        if (!all)
-            return all.error();
-        channels = std::move(all).value();
-        return {};
-    };
-    const auto mayBe = [&](Vectors kind) { return !options.vectors || options.vectors == kind; };
-    if (mayBe(Vectors::Blender)) {
-        found.kind = Vectors::Blender;
-        SHUTTER_TRY(search(kBlender, found.previous));
-        if (found.previous.empty() && options.vectors)
-            SHUTTER_TRY(search(kRgba, found.previous));
-        if (!found.previous.empty()) {
-            found.next.assign(found.previous.begin() + 2, found.previous.end());
-            found.previous.resize(2);
-            return found;
-        }
-        if (options.vectors)
-            return explainMissing(picture, "Vector.X, Vector.Y, Vector.Z, Vector.W");
-    }
-    if (mayBe(Vectors::Nuke)) {
-        found.kind = Vectors::Nuke;
-        SHUTTER_TRY(search(kForward, found.next));
-        SHUTTER_TRY(search(kBackward, found.previous));
-        if (!found.next.empty() || !found.previous.empty())
-            return found;
-        if (options.vectors)
-            return explainMissing(picture, "forward.u, forward.v");
-    }
-    found.kind = options.vectors.value_or(Vectors::Exposure);
-    std::vector<uint32_t>& pair = found.kind == Vectors::Next ? found.next : found.previous;
-    for (const auto& names : kPairs) {
-        SHUTTER_TRY(search(names, pair));
-        if (pair.empty())
+    Names wanted;
+    for (const MotionRow& row : listMotions()) {
+        if (options.vectors && row.kind != *options.vectors)
             continue;
-        if (!options.vectors && names[0] != "motion.x")
+        if (wanted.empty())
+            wanted = row.names;
+        auto channels = findChannels(picture, row.names);
+        if (!channels)
+            return channels.error();
+        std::vector<uint32_t>& all = channels.value();
+        if (all.empty())
+            continue;
+        if (!options.vectors && !row.isTelling)
             return makeError(
                 "'{}': --vectors must say what the channels {} are: {}",
                 picture.file.string(),
-                fmt::join(names, ", "),
+                fmt::join(row.names, ", "),
                 fmt::join(kVectorsWords, ", ")
             );
-        return found;
+        if (row.kind == Vectors::Next || row.names.front() == "forward.u")
+            return MotionChannels{row.kind, {}, std::move(all)};
+        return MotionChannels{row.kind, {all[0], all[1]}, {all.begin() + 2, all.end()}};
     }
-    return explainMissing(picture, "motion.x, motion.y");
+    return explainMissing(picture, wanted);
 }
 
 core::Status readMotion(const Picture& picture, const PassOptions& options, Passes& passes) {
@@ -267,40 +277,31 @@ float distanceOf(double value, const PassOptions& options) {
 
 core::Status readDepth(const Picture& picture, const PassOptions& options, Passes& passes) {
     passes.depth.assign(size_t{passes.width} * passes.height, shader::kSkyDepth);
-    for (const std::string_view name : kDepths) {
-        const auto channel = findChannels(picture, {&name, 1});
-        if (!channel)
-            return channel.error();
-        if (!channel.value().empty())
-            return readPixels(picture, channel.value(), true, [&](size_t i, const auto& values) {
-                passes.depth[i] = distanceOf(values[0], options);
-            });
-    }
-    return explainMissing(picture, "Z");
+    const auto channel = findFirst(picture, listDepths(), {"Z"});
+    if (!channel)
+        return channel.error();
+    return readPixels(picture, channel.value(), true, [&](size_t i, const auto& values) {
+        passes.depth[i] = distanceOf(values[0], options);
+    });
 }
 
 core::Status readIds(const Picture& picture, Passes& passes) {
     constexpr float kMost = 16777214.0f; // 2^24 - 2: floats hold all whole numbers up to there
     passes.entityId.assign(size_t{passes.width} * passes.height, shader::kNoEntity);
-    for (const std::string_view name : kIds) {
-        const auto channel = findChannels(picture, {&name, 1});
-        if (!channel)
-            return channel.error();
-        if (channel.value().empty())
-            continue;
-        bool areIds = true;
-        SHUTTER_TRY(readPixels(picture, channel.value(), false, [&](size_t i, const auto& values) {
-            areIds = areIds && values[0] == std::floor(values[0]) && values[0] <= kMost;
-            if (areIds && values[0] >= 0.0f)
-                passes.entityId[i] = uint32_t(values[0]);
-        }));
-        if (areIds)
-            return {};
-        return makeError(
-            "'{}': ids must be whole numbers of at most {}", picture.file.string(), kMost
-        );
-    }
-    return explainMissing(picture, "mesh_id");
+    const auto channel = findFirst(picture, listIds(), {"mesh_id"});
+    if (!channel)
+        return channel.error();
+    bool areIds = true;
+    SHUTTER_TRY(readPixels(picture, channel.value(), false, [&](size_t i, const auto& values) {
+        areIds = areIds && values[0] == std::floor(values[0]) && values[0] <= kMost;
+        if (areIds && values[0] >= 0.0f)
+            passes.entityId[i] = uint32_t(values[0]);
+    }));
+    return areIds
+               ? core::Status()
+               : makeError(
+                     "'{}': ids must be whole numbers of at most {}", picture.file.string(), kMost
+                 );
 }
 
 } // namespace

@@ -191,7 +191,7 @@ core::Status checkMethod(const Method* method, const char* name, bool hasCameras
             usable.push_back(one->name);
     if (!method || !method->readsRaster || method->rays == motion_blur::RayNeed::Query)
         return makeError(
-            "--method {} needs the scene, which pictures do not hold; these do without: {}",
+            "--method {} draws from the scene, which pictures do not hold; these do without: {}",
             name,
             fmt::join(usable, ", ")
         );
