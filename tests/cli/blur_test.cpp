@@ -202,6 +202,10 @@ TEST_F(Blur, VectorsAndDepthOfOtherProgramsGiveTheSamePicture) {
 TEST_F(Blur, WhatPicturesLackAndBadFilesAreNamedBeforeAnythingIsWritten) {
     render("sharp", "s_%d.exr");
     const image::Image color = read("s_1.exr");
+    writeFile(
+        "flat.json",
+        R"({"cameras": [{"viewFromWorld": [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1], "fieldOfView": 9}]})"
+    );
     writeFile("bad.json", R"({"cameras": [{"frame": 1, "position": [0, 0]}]})");
     write("nan.exr", color, {"motion.x", "motion.y"}, [](auto x, auto y, auto c) {
         const bool isNan = x == 3 && y == 2 && c == 1;
@@ -236,6 +240,7 @@ TEST_F(Blur, WhatPicturesLackAndBadFilesAreNamedBeforeAnythingIsWritten) {
         {of({"s_1.exr", motion, "small.exr"}), kFailed, {"small.exr", "8 x 8", "64 x 36"}},
         {of({"s_1.exr", motion, "two.exr"}), kFailed, {"two.exr", "a.Z and b.Z"}},
         {one({"--camera", "none.json"}), kFailed, {"none.json"}},
+        {one({"--camera", "flat.json"}), kFailed, {"flat.json:1: cameras[0]", "singular"}},
         {one({"--camera", "bad.json"}), kFailed, {"bad.json:1: cameras[0].position"}},
         {one({"--camera", "two.json", "--frames", "0:0"}), kFailed, {"cover", "two.json"}},
         {one({"--camera", "two.json", "--frames", "7:7"}), kFailed, {"camera of frame 7"}},
