@@ -45,6 +45,8 @@ layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Margin around sample positions for linear filtering.
 const float kFetchMarginPx = 1.0f;
+/// By how much farther inside another layer has a place beyond the border to be searched.
+const float kNearerBorderPx = 1.0f;
 /// Most blocks of the raster, across and down, that a block may sample.
 const int kMaxBlocksAcross = kHasLens ? 6 : 4;
 const float kFarAway = 1.0e4f;
@@ -136,6 +138,25 @@ void keepInside(inout Reach reach) {
     reach.high = clamp(reach.high, vec2(0.0f), last);
 }
 
+/// Whether another layer may show what lies beyond the border of this frame's raster.
+/// \param reach in this frame's raster
+bool isReachedByOther(
+    Reach reach, uint index, uint mover, uint instant, vec4 corners, vec2 alongs, bool perspective
+) {
+    LayerMotion layer = getLayer(InstantMotionsRef(method.motions), index);
+    InstantMotion motion = motionAt(method, kHasLens, layer, mover, instant);
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
+    Reach other = findReach(motion.rasterFromInstant, corners, alongs, perspective);
+    bool isReached = false;
+    for (int axis = 0; axis < 2; ++axis) {
+        isReached = isReached || (reach.low[axis] < 0.0f &&
+                                  other.low[axis] > reach.low[axis] + kNearerBorderPx);
+        isReached = isReached || (reach.high[axis] >= float(params.sizePx[axis]) &&
+                                  other.high[axis] < reach.high[axis] - kNearerBorderPx);
+    }
+    return isReached;
+}
+
 /// Screen bounds of the block at the instant, over all lens sets and all surfaces between two inverse
 /// depths, pixels: least x and y, greatest x and y. Without a lens, the block itself.
 vec4 cornersOf(ivec2 block, uint instant, vec2 alongs) {
@@ -196,10 +217,17 @@ PlaneMap lookAt(
     PlaneMap none;
     none.isAffine = false;
     if (motion.instantFromRaster[2] == vec4(0.0f)) return none;
-    Reach reach = findReach(
-        motion.rasterFromInstant, cornersOf(block, instant, alongs), alongs, perspective
-    );
-    if (kHasLens) keepInside(reach);
+    vec4 corners = cornersOf(block, instant, alongs);
+    Reach reach = findReach(motion.rasterFromInstant, corners, alongs, perspective);
+    if (kHasLens) {
+        if (has(method, kHasLastLayer) &&
+            isReachedByOther(reach, kLastLayer, mover, instant, corners, alongs, perspective))
+            return none;
+        if (has(method, kHasSecondLayer) &&
+            isReachedByOther(reach, kSecondLayer, mover, instant, corners, alongs, perspective))
+            return none;
+        keepInside(reach);
+    }
     bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&
                     all(lessThan(reach.high, vec2(params.sizePx)));
     if (!reach.isInFront || !isInside) return none;

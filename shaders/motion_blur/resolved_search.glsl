@@ -412,6 +412,25 @@ Guesses beginGuesses(PixelSearch pixel) {
     );
 }
 
+/// Whether it may be the picture's border in place of what a lens sees beyond it (withinBorder()).
+bool isAtBorder(vec2 at) {
+    return any(lessThanEqual(at, vec2(0.5f))) || any(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
+}
+
+/// Whether it is the picture's border in place of what a lens sees beyond it. As the camera moves, another
+/// layer may show that: the border counts if none does.
+bool isContinued(PixelSearch pixel, uint instant, Seen found) {
+    if (!kHasLens || !found.isFound || !isAtBorder(found.at)) return false;
+    uint mover = findMover(pixel.raster, found.key);
+    if (mover == kNoMover || isDeformed(mover)) return false;
+    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, mover, instant);
+    vec3 inRaster = transformRows(
+        motion.rasterFromInstant,
+        pictureSpace(pixel.x, depthOfKey(found.key, found.depth), pixel.perspective)
+    );
+    return !isInside(projectPicture(inRaster, pixel.perspective));
+}
+
 /// The searches of all layers as one loop, for shaders that contain much else: compilers inline every call of
 /// searchLayer(), and their time grows faster than the code.
 /// \param slots a bit for each candidate of this frame's raster to search
@@ -422,6 +441,9 @@ Seen searchInTurn(
     LayerMotion motion = pixel.raster;
     Guess guess = guesses.raster;
     uint layer = kRasterLayer;
+    bool isBorder = false;
+    Seen border = seen;
+    Doubt ofBorder = doubt;
     [[dont_unroll]] while (true) {
         searchLayer(layer, motion, pixel, instant, slots, guess, seen, doubt);
         if (layer == kRasterLayer) guesses.raster = guess;
@@ -429,7 +451,18 @@ Seen searchInTurn(
         if (layer == kLastLayer) guesses.last = guess;
         bool isLast = layer == kLastLayer || !has(method, kHasLastLayer);
         if (kHasSecond && layer == kRasterLayer) isLast = false;
-        if (seen.isFound || isLast) return seen;
+        if (layer == kRasterLayer && !isLast && isContinued(pixel, instant, seen)) {
+            isBorder = true;
+            border = seen;
+            ofBorder = doubt;
+        } else if (seen.isFound) {
+            return seen;
+        }
+        if (isLast) {
+            if (!isBorder) return seen;
+            doubt = ofBorder;
+            return border;
+        }
         slots = ~0u;
         if (kHasSecond && layer == kRasterLayer) {
             layer = kSecondLayer;
@@ -467,6 +500,9 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
     if (kFindsEdges) return searchInTurn(pixel, instant, slots, guesses, doubt);
     Seen seen = pixel.still;
     searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);
+    Seen border = seen;
+    bool isBorder = has(method, kHasSecondLayer | kHasLastLayer) && isContinued(pixel, instant, seen);
+    if (isBorder) seen.isFound = false;
     if (kHasSecond && !seen.isFound) {
         seen = pixel.secondStill;
         searchLayer(
@@ -477,6 +513,7 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
         seen = pixel.lastStill;
         searchLayer(kLastLayer, pixel.last, pixel, instant, ~0u, guesses.last, seen, doubt);
     }
+    if (isBorder && !seen.isFound) return border;
     return seen;
 }
 
@@ -489,11 +526,6 @@ Seen searchInstant(
     Seen seen = searchPlace(pixel, instant, guesses, doubt);
     pixel.isAtEdge = !(seen.isFound && seen.isInner);
     return seen;
-}
-
-/// Whether the picture's border is shown in place of what a lens sees beyond it (withinBorder()).
-bool isAtBorder(vec2 at) {
-    return any(lessThanEqual(at, vec2(0.5f))) || any(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
 }
 
 /// How much harm it may do not to trace the sample.

@@ -314,6 +314,41 @@ TEST_F(AdaptiveLaw, RaysGoFirstToWhatALensSeesBeyondThePicturesBorder) {
     EXPECT_GE(image::computePsnr(stage.render(shot).color, many), lookedUp + 3.0);
 }
 
+TEST_F(LensLaw, BeyondTheBorderAMovingCameraSeesWhatTheLastFrameShowed) {
+    for (const double speed : {-30.0, 30.0}) {
+        SceneBuilder scene = makeLensStage({.fStop = 0.1, .focusDistance = 2.5});
+        scene.moveCamera({.velocity = {speed, 0, 0}});
+        const scene::AssetIndex colors[] = {
+            scene.addColor({0, 1, 0}), scene.addColor({1, 0.2f, 0})};
+        for (int i = -20; i <= 20; ++i)
+            scene.add(test::makeQuad(0.7, 9.0, colors[i & 1]), {.position = {0.7 * i, 0, -5}});
+        Stage stage(device(), scene);
+        Shot shot = makeLensShot("accumulate");
+        shot.exposureSeconds = 1.0 / 60.0;
+        shot.frameSeconds = 1.0 / 60.0;
+        shot.phase = scene::ShutterPhase::End;
+        const image::Image many = stage.render(shot).color;
+        const auto measureError = [&](const image::Image& picture, uint32_t first) {
+            double sum = 0.0;
+            for (uint32_t y = 16; y + 16 < kHigh; ++y)
+                for (uint32_t x = first; x < first + 8; ++x)
+                    sum += std::abs(picture.at(x, y, 1) - many.at(x, y, 1));
+            return sum / (8.0 * (kHigh - 32));
+        };
+        for (const char* method : {"resolved", "adaptive"}) { // which search in different orders
+            shot.method = method;
+            shot.settings.raysPerPixel = 0.0f;
+            if (shot.method == "adaptive" && !device().hasRayQuery())
+                continue;
+            const image::Image picture = stage.render(shot).color;
+            const double middle = measureError(picture, kWide / 2);
+            for (const uint32_t first : {0u, kWide - 8})
+                EXPECT_LE(measureError(picture, first), 3.0 * middle)
+                    << method << " " << speed << " " << first;
+        }
+    }
+}
+
 TEST_F(LensLaw, DenoisedRaysAreTheTruthsWhereThereAreMany) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "needs ray queries";
