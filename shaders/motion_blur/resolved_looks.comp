@@ -4,6 +4,7 @@
 // other instants, candidates are dropped that this frame's raster does not show where the block
 // would see them.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/block_plane.glsl"
@@ -220,12 +221,10 @@ PlaneMap lookAt(
     vec4 corners = cornersOf(block, instant, alongs);
     Reach reach = findReach(motion.rasterFromInstant, corners, alongs, perspective);
     if (kHasLens) {
-        if (has(method, kHasLastLayer) &&
-            isReachedByOther(reach, kLastLayer, mover, instant, corners, alongs, perspective))
-            return none;
-        if (has(method, kHasSecondLayer) &&
-            isReachedByOther(reach, kSecondLayer, mover, instant, corners, alongs, perspective))
-            return none;
+        [[dont_unroll]] for (uint layer = kLastLayer; layer <= kSecondLayer; ++layer)
+            if (has(method, layer == kLastLayer ? kHasLastLayer : kHasSecondLayer) &&
+                isReachedByOther(reach, layer, mover, instant, corners, alongs, perspective))
+                return none;
         keepInside(reach);
     }
     bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&

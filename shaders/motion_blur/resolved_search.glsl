@@ -101,6 +101,21 @@ struct Guesses {
     Guess last;
 };
 
+/// Whether other layers are searched for what a lens sees beyond the border. The general search of
+/// `adaptive` has no register left for that on GPUs.
+bool searchesBeyond() { return kHasLens && !(kFindsEdges && kIsGeneral); }
+
+/// Whether withinBorder() moves a place.
+bool isBeyondBorder(uint layer, vec2 at) {
+    return searchesBeyond() && layer == kRasterLayer && !isInside(at);
+}
+
+/// Marks a place on the border as one beyond it, which withinBorder() takes back.
+vec2 beyondBorder(vec2 at) {
+    return at - vec2(lessThanEqual(at, vec2(0.5f))) +
+           vec2(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
+}
+
 /// Searches the pixel's sample on a candidate, from one place on the ray.
 /// \param begin where on the ray; where it was found
 /// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
@@ -110,7 +125,9 @@ bool searchRigid(
     uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
     inout float begin, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 at = withinBorder(layer, placeOn(ray, begin, perspective));
+    vec2 place = placeOn(ray, begin, perspective);
+    bool isBeyond = isBeyondBorder(layer, place);
+    vec2 at = withinBorder(layer, place);
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
@@ -128,7 +145,9 @@ bool searchRigid(
         if (perspective && depth < kMinDepth) return false;
         float along = alongOf(depth, perspective);
         if (spreadPx >= kArrivedPx) {
-            vec2 next = withinBorder(layer, placeOn(ray, along, perspective));
+            place = placeOn(ray, along, perspective);
+            isBeyond = isBeyondBorder(layer, place);
+            vec2 next = withinBorder(layer, place);
             float way = distance(next, at);
             at = next;
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
@@ -140,6 +159,7 @@ bool searchRigid(
             }
         }
         begin = along;
+        if (isBeyond) at = beyondBorder(at);
         found = Seen(true, layer, key, at, behindSky(key, depth), false, range);
         return true;
     }
@@ -156,7 +176,9 @@ uint searchInner(
     uint layer, uint key, uint range, vec4 instantDepthRow, PixelRay ray, bool perspective,
     inout float guess, float spreadPx, inout Seen found, inout Doubt doubt
 ) {
-    vec2 at = withinBorder(layer, placeOn(ray, guess, perspective));
+    vec2 place = placeOn(ray, guess, perspective);
+    bool isBeyond = isBeyondBorder(layer, place);
+    vec2 at = withinBorder(layer, place);
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurfaceAt(layer, at);
@@ -167,12 +189,17 @@ uint searchInner(
     float layerDepth = depthOfKey(key, surface.depth);
     float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
     float along = alongOf(depth, perspective);
-    vec2 place = at;
-    if (spreadPx >= kArrivedPx) place = withinBorder(layer, placeOn(ray, along, perspective));
+    place = at;
+    if (spreadPx >= kArrivedPx) {
+        place = placeOn(ray, along, perspective);
+        isBeyond = isBeyondBorder(layer, place);
+        place = withinBorder(layer, place);
+    }
     if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
     if (perspective && depth < kMinDepth) return kUnclear;
     guess = along;
+    if (isBeyond) place = beyondBorder(place);
     found = Seen(true, layer, key, place, behindSky(key, depth), true, range);
     return kFound;
 }
@@ -187,7 +214,8 @@ float alongAt(Candidate candidate, float share, bool perspective) {
     return mix(alongOf(nearest, perspective), alongOf(farthest, perspective), share);
 }
 
-/// Searches the place in the layer of the pixel's sample on an entity.
+/// Searches the place in the layer of the pixel's sample on an entity. With a lens, the place may be beyond
+/// the border of this frame's raster (isContinued()).
 /// \param id idOf()
 /// \param guess where it was found at the instant before, if it was this candidate; where it is now
 void searchDepths(
@@ -417,19 +445,9 @@ bool isAtBorder(vec2 at) {
     return any(lessThanEqual(at, vec2(0.5f))) || any(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
 }
 
-/// Whether it is the picture's border in place of what a lens sees beyond it. As the camera moves, another
-/// layer may show that: the border counts if none does.
-bool isContinued(PixelSearch pixel, uint instant, Seen found) {
-    if (!kHasLens || !found.isFound || !isAtBorder(found.at)) return false;
-    uint mover = findMover(pixel.raster, found.key);
-    if (mover == kNoMover || isDeformed(mover)) return false;
-    InstantMotion motion = motionAt(method, kHasLens, pixel.raster, mover, instant);
-    vec3 inRaster = transformRows(
-        motion.rasterFromInstant,
-        pictureSpace(pixel.x, depthOfKey(found.key, found.depth), pixel.perspective)
-    );
-    return !isInside(projectPicture(inRaster, pixel.perspective));
-}
+/// Whether this frame's raster shows its border in place of what a lens sees beyond it. Another layer may
+/// show that, as the camera moves: the border counts if none does.
+bool isContinued(Seen found) { return searchesBeyond() && found.isFound && !isInside(found.at); }
 
 /// The searches of all layers as one loop, for shaders that contain much else: compilers inline every call of
 /// searchLayer(), and their time grows faster than the code.
@@ -441,9 +459,8 @@ Seen searchInTurn(
     LayerMotion motion = pixel.raster;
     Guess guess = guesses.raster;
     uint layer = kRasterLayer;
-    bool isBorder = false;
-    Seen border = seen;
-    Doubt ofBorder = doubt;
+    bool isBorder = false; // this frame's raster has it if its border is taken, in a second search
+    bool takesBorder = false;
     [[dont_unroll]] while (true) {
         searchLayer(layer, motion, pixel, instant, slots, guess, seen, doubt);
         if (layer == kRasterLayer) guesses.raster = guess;
@@ -451,20 +468,19 @@ Seen searchInTurn(
         if (layer == kLastLayer) guesses.last = guess;
         bool isLast = layer == kLastLayer || !has(method, kHasLastLayer);
         if (kHasSecond && layer == kRasterLayer) isLast = false;
-        if (layer == kRasterLayer && !isLast && isContinued(pixel, instant, seen)) {
-            isBorder = true;
-            border = seen;
-            ofBorder = doubt;
-        } else if (seen.isFound) {
-            return seen;
-        }
-        if (isLast) {
-            if (!isBorder) return seen;
-            doubt = ofBorder;
-            return border;
-        }
+        bool isContinuation = layer == kRasterLayer && isContinued(seen);
+        if (isContinuation) seen.at = withinBorder(layer, seen.at);
+        if (isContinuation && !isLast && !takesBorder) isBorder = true;
+        else if (seen.isFound || takesBorder) return seen;
+        if (isLast && !isBorder) return seen;
         slots = ~0u;
-        if (kHasSecond && layer == kRasterLayer) {
+        if (isLast) {
+            takesBorder = true;
+            layer = kRasterLayer;
+            motion = pixel.raster;
+            guess = guesses.raster;
+            seen = pixel.still;
+        } else if (kHasSecond && layer == kRasterLayer) {
             layer = kSecondLayer;
             motion = pixel.second;
             guess = guesses.second;
@@ -500,8 +516,9 @@ Seen searchPlace(PixelSearch pixel, uint instant, inout Guesses guesses, inout D
     if (kFindsEdges) return searchInTurn(pixel, instant, slots, guesses, doubt);
     Seen seen = pixel.still;
     searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);
+    bool isBorder = isContinued(seen);
+    if (isBorder) seen.at = withinBorder(kRasterLayer, seen.at);
     Seen border = seen;
-    bool isBorder = has(method, kHasSecondLayer | kHasLastLayer) && isContinued(pixel, instant, seen);
     if (isBorder) seen.isFound = false;
     if (kHasSecond && !seen.isFound) {
         seen = pixel.secondStill;

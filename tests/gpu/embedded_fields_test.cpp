@@ -271,6 +271,8 @@ EmbeddedFields::Changes EmbeddedFields::listChanges() const {
     static const glm::dmat4 kElsewhere = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.2, 0));
     static const std::array<glm::dmat4, 2> kPoses{glm::dmat4(1.0), kElsewhere};
     static const glm::dmat4 kZoomed = math::clipFromViewPerspective(1.2, 1.5, 0.125);
+    // A barrier may name the stage of ray-tracing pipelines only where they are enabled.
+    const VkBool32 launchesRays = device().info().rayTier == gpu::RayTier::Pipeline;
     const auto openLens = [](Inputs& in) { in.lens.radius = 0.02; };
     const auto bent = [openLens](const auto& change) {
         return [openLens, change](Inputs& in) {
@@ -330,11 +332,12 @@ EmbeddedFields::Changes EmbeddedFields::listChanges() const {
         {"normal", {[](Inputs& in) { in.normal = {}; }, "normal"}},
         {"recordReveal", {[](Inputs& in) { in.recordReveal = nullptr; }, "recordReveal"}},
         {"revealUser", {[](Inputs& in) { in.revealUser = &in; }, "revealUser"}},
-        {"revealByRayPipeline", {[](Inputs& in) { in.revealByRayPipeline = VK_TRUE; }, "reveal"}},
+        {"revealByRayPipeline",
+         {[launchesRays](Inputs& in) { in.revealByRayPipeline = launchesRays; }, "reveal"}},
         {"recordSamples", {[](Inputs& in) { in.recordSamples = nullptr; }, "recordSamples"}},
         {"samplesUser", {[](Inputs& in) { in.samplesUser = &in; }, "samplesUser"}},
         {"samplesByRayPipeline",
-         {[](Inputs& in) { in.samplesByRayPipeline = VK_TRUE; }, "samples"}},
+         {[launchesRays](Inputs& in) { in.samplesByRayPipeline = launchesRays; }, "samples"}},
         {"lastColor", {[this](Inputs& in) { in.lastColor = mHalves; }, "lastMotionDepth"}},
         {"lastMotionDepth", {[this](Inputs& in) { in.lastMotionDepth = mPacked; }, "lastColor"}},
         {"lastEntityId", {[](Inputs& in) { in.lastEntityId = in.entityId; }, "lastEntityId"}},
