@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -68,13 +69,16 @@ findKeys(const Cameras& cameras, const PictureShutter& shutter, int number) {
             );
     }
     constexpr double kTolerance = 1.0e-6;
-    if (keys.front().time > kTolerance || keys.back().time < 1.0 - kTolerance)
+    const bool beginsLate = keys.front().time > kTolerance;
+    if (beginsLate || keys.back().time < 1.0 - kTolerance) {
+        const double open = number - shutter.rasterTime * shutter.exposureShare;
         return makeError(
-            "the cameras around frame {} cover {:.3f} to {:.3f} of its exposure, not 0 to 1",
-            number,
-            keys.front().time,
-            keys.back().time
+            "the camera of frame {} is missing, which the exposure of frame {} needs",
+            int(beginsLate ? std::floor(open + kTolerance)
+                           : std::ceil(open + shutter.exposureShare - kTolerance)),
+            number
         );
+    }
     return keys;
 }
 
@@ -235,7 +239,10 @@ core::Result<DumpFrame> makeFrame(
     frame.convention.cameras.aheadIsPlusZ = cameras->aheadIsPlusZ;
     const PictureCamera* now = cameras->find(number);
     if (!now)
-        return makeError("the camera of frame {} is missing", number);
+        return makeError(
+            "the camera of frame {} is missing; --frames, 0 by default, is the pictures' frame",
+            number
+        );
     const PictureCamera* before = cameras->find(number - 1.0);
     if (before)
         giveCameras(frame.convention, *now, *before);

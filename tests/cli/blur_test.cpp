@@ -242,8 +242,15 @@ TEST_F(Blur, WhatPicturesLackAndBadFilesAreNamedBeforeAnythingIsWritten) {
         {one({"--camera", "none.json"}), kFailed, {"none.json"}},
         {one({"--camera", "flat.json"}), kFailed, {"flat.json:1: cameras[0]", "singular"}},
         {one({"--camera", "bad.json"}), kFailed, {"bad.json:1: cameras[0].position"}},
-        {one({"--camera", "two.json", "--frames", "0:0"}), kFailed, {"cover", "two.json"}},
-        {one({"--camera", "two.json", "--frames", "7:7"}), kFailed, {"camera of frame 7"}},
+        {one({"--camera", "two.json", "--frames", "0:0"}),
+         kFailed,
+         {"two.json", "camera of frame -1 is missing, which the exposure of frame 0 needs"}},
+        {one({"--camera", "two.json", "--frames", "1:1", "--phase", "start"}),
+         kFailed,
+         {"camera of frame 2 is missing, which the exposure of frame 1 needs"}},
+        {one({"--camera", "two.json", "--frames", "7:7"}),
+         kFailed,
+         {"camera of frame 7", "--frames"}},
         {one({"--camera", "two.json", "--method", "rosado2007"}), kFailed, {"of frame -1"}},
     });
 }
