@@ -486,8 +486,8 @@ TEST_F(EmbeddedRefusals, TheDefaultMethodInPlaceOfResolvedIsReportedOnce) {
     inputs.observe = [&](graph::Graph&, const motion_blur::MotionBlurInputs& own, const auto&) {
         readsMotions = own.instantMotions.has_value();
     };
-    const std::string once =
-        "motion blur: keys is empty, so the default method is gather in place of resolved";
+    const std::string once = "motion blur: motionDepth is given without keys, so the default "
+                             "method is gather in place of resolved";
     for (int again = 0; again < 2; ++again) {
         EXPECT_TRUE(record().ok());
         EXPECT_FALSE(readsMotions);
@@ -679,28 +679,44 @@ class EmbeddedCare : public EmbeddedRefusals {
     std::function<void()> mOnSentence;
 };
 
-TEST_F(EmbeddedCare, UnknownImageUsageIsReportedOnceBeforeUse) {
+TEST_F(EmbeddedCare, UnknownUsageAndSamplesAreNotReported) {
     createWithMessages(true);
     inputs.color.usage = inputs.output.usage = 0;
-    for (int again = 0; again < 2; ++again)
+    inputs.color.samples = VkSampleCountFlagBits(0);
+    submitCleared([&](VkCommandBuffer commands) {
+        EXPECT_TRUE(mBlur->record(commands, 0, inputs, settings).ok());
+    });
+    mBlur.reset();
+    EXPECT_EQ(countReported("usage") + countReported("samples"), 0u);
+}
+
+TEST_F(EmbeddedCare, WhyTheDefaultMethodIsNotResolvedIsReported) {
+    const std::vector<float> depth(size_t{kRefusedWidth} * kRefusedHeight, 2.0f);
+    const test::HostTexels& texels =
+        makeTexels(VK_FORMAT_R32_SFLOAT, {kRefusedWidth, kRefusedHeight}, depth);
+    motion_blur::HostConvention& convention = inputs.convention;
+    convention.depth.image = texels.describe();
+    convention.depth.isLinear = true;
+    convention.vectors.image = std::exchange(inputs.motionDepth, {});
+    const auto countAll = [&](const char* reason) {
+        createWithMessages(false);
         submitCleared([&](VkCommandBuffer commands) {
-            EXPECT_TRUE(mBlur->record(commands, 0, inputs, settings).ok());
-            EXPECT_EQ(countReported("cannot check"), 1u)
-                << "once, before its commands are submitted";
+            texels.record(commands);
+            const core::Status done = mBlur->record(commands, 0, inputs, {});
+            EXPECT_TRUE(done.ok()) << done.error().message;
         });
-    EXPECT_EQ(
-        countReported(
-            "motion blur check: cannot check the usage of color, output, nor the samples of color, "
-            "output, motionDepth: set both fields"
-        ),
-        1u
-    );
-    createWithMessages(true);
-    inputs = makeInputs();
-    for (motion_blur::HostImage* image : {&inputs.color, &inputs.motionDepth, &inputs.output})
-        image->samples = VK_SAMPLE_COUNT_1_BIT;
-    EXPECT_TRUE(record().ok());
-    EXPECT_EQ(countReported("cannot check"), 0u) << "all is declared";
+        return countReported(reason);
+    };
+    EXPECT_EQ(countAll("neither keys nor cameras are given, so the default method is gather"), 1u);
+    convention.cameras.areGiven = true;
+    convention.cameras.clipFromView = convention.cameras.clipFromViewBefore =
+        makeKey().clipFromView;
+    EXPECT_EQ(countAll("vectors are given without keys or movers"), 1u);
+    const motion_blur::HostMover byVectors{0, {}};
+    inputs.motion.movers = {&byVectors, 1};
+    inputs.motion.rowCount = 1;
+    inputs.entityId = mHost->ids();
+    EXPECT_EQ(countAll("the default method"), 0u) << "a mover without matrices follows vectors";
 }
 
 TEST_F(EmbeddedCare, ALargeImageWithoutAnExtentIsReported) {
@@ -743,7 +759,6 @@ TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {
         makeTexels(VK_FORMAT_R32_SFLOAT, {kRefusedWidth, kRefusedHeight}, depth);
     given.depth = test::convertForC(texels.describe());
     given.vectors = std::exchange(given.motionDepth, {});
-    given.vectors.usage = given.depth.usage = 0;
     given.depthIsLinear = VK_TRUE;
     const CSettings cheap = plainInC();
     submitCleared([&](VkCommandBuffer commands) {
@@ -752,10 +767,8 @@ TEST_F(EmbeddedCare, AHostInCGetsTheFieldNamesOfTheCInterface) {
             << shutterBlurGetMessage();
     });
     mC.reset();
-    for (const char* part :
-         {"the usage of vectors, depth, nor the samples of",
-          "without cameras, vectors and depth are not compared"})
-        EXPECT_NE(all.find(part), std::string::npos) << all;
+    EXPECT_NE(all.find("without cameras, vectors and depth are not compared"), std::string::npos)
+        << all;
 }
 
 TEST_F(EmbeddedCare, CallsOfASecondThreadOrWithinACallbackAreRefused) {
@@ -765,7 +778,8 @@ TEST_F(EmbeddedCare, CallsOfASecondThreadOrWithinACallbackAreRefused) {
         const core::Status done = mBlur->markDone(0);
         message = done ? "" : done.error().message;
     };
-    createWithMessages(true);
+    createWithMessages(false);
+    settings = {}; // whose default method is reported
     mOnSentence = [&] {
         call(within);
         std::thread([&] { call(concurrent); }).join();

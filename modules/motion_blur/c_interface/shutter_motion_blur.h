@@ -151,9 +151,9 @@ typedef struct ShutterBlurValue {
 
 typedef struct ShutterBlurSettings {
     uint32_t structBytes;
-    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null and cannot be
-     * made of inputs.cameras, or vectors alone tell how objects move, gather, which is reported to
-     * `message`. */
+    /* One of shutterBlurGetMethod(). Null: resolved. But gather, where inputs.keys is null and
+     * motionDepth is given, cameras are not, or vectors are without movers; the reason is reported
+     * to `message` once. */
     const char* method;
     uint32_t sampleCount; /* taps or instants; 0: the method's own number */
     uint32_t valueCount;

@@ -186,8 +186,10 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
         mHasLeftAPart = true;
         if (!wanted.method && !knowsMotions && !inputs.isOff &&
             !std::exchange(mReportsMethod, true))
-            warn("motion blur: keys is empty, so the default method is gather in place of resolved"
-            );
+            warn(fmt::format(
+                "motion blur: {}, so the default method is gather in place of resolved",
+                describeMissingKeys(inputs)
+            ));
         Slot& slot = *mSlots[frame];
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
         graph::Graph graph;

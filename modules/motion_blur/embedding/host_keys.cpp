@@ -28,6 +28,14 @@ bool derivesKeys(const HostInputs& inputs, const MotionBlurSettings& wanted) {
     return !inputs.convention.vectors.image.image || !inputs.motion.movers.empty();
 }
 
+const char* describeMissingKeys(const HostInputs& inputs) {
+    if (inputs.motionDepth.image)
+        return "motionDepth is given without keys";
+    if (!inputs.convention.cameras.areGiven)
+        return "neither keys nor cameras are given";
+    return "vectors are given without keys or movers";
+}
+
 std::array<HostCameraKey, 2> deriveKeys(const HostInputs& inputs) {
     const HostCameras cameras = countedCameras(inputs.convention);
     const VkExtent2D size{inputs.width, inputs.height};

@@ -14,6 +14,9 @@ namespace shutter::motion_blur {
 /// alone. \param wanted before complete()
 [[nodiscard]] bool derivesKeys(const HostInputs& inputs, const MotionBlurSettings& wanted);
 
+/// Why there are no keys, given or derived, where no method is set.
+[[nodiscard]] const char* describeMissingKeys(const HostInputs& inputs);
+
 /// The frame before at timeOfFrameBefore() and this one at rasterTime, both with this frame's
 /// jitter.
 [[nodiscard]] std::array<HostCameraKey, 2> deriveKeys(const HostInputs& inputs);

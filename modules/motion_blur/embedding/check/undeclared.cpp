@@ -53,39 +53,22 @@ void HostUndeclared::report(const HostInputs& inputs, const HostMessage& message
         return;
     const auto images = listImages(inputs);
     const VkExtent2D picture = pictureOf(inputs);
-    std::string usages;
-    std::string samples;
     std::string extents;
     for (uint32_t i = 0; i < images.size(); ++i) {
         const Named& named = images[i];
         const uint32_t bit = 1u << i;
         if (!named.image.image)
             continue;
-        if ((mReported & bit) == 0 && named.image.usage == 0)
-            append(usages, named.rule.name);
-        if ((mReported & bit) == 0 && named.image.samples == 0)
-            append(samples, named.rule.name);
-        mReported |= bit;
         // Padding and a chain of mip levels are less than that.
         constexpr double kMaxTimes = 1.8;
         constexpr uint64_t kMinPixels = 128 * 128; // padding counts for much of a smaller one
         const bool isLarge = uint64_t(picture.width) * picture.height >= kMinPixels;
-        if (isLarge && (mExtentReported & bit) == 0 && named.image.extent.width == 0 &&
+        if (isLarge && (mReported & bit) == 0 && named.image.extent.width == 0 &&
             measureMemory(mDevice, named, picture) > kMaxTimes) {
             append(extents, named.rule.name);
-            mExtentReported |= bit;
+            mReported |= bit;
         }
     }
-    if (!usages.empty() || !samples.empty())
-        message(fmt::format(
-            "motion blur check: cannot check {}{}{}{}: set both fields as the images were made, "
-            "and "
-            "a missing flag is refused by its name, not left to the driver",
-            usages.empty() ? "" : "the usage of ",
-            usages,
-            usages.empty() || samples.empty() ? "" : ", nor ",
-            samples.empty() ? "" : "the samples of " + samples
-        ));
     if (!extents.empty())
         message(fmt::format(
             "motion blur check: the extent of {} is not declared, and the image's memory is that "
