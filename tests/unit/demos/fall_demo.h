@@ -29,17 +29,20 @@ class FallDemo final : public DemoBase {
 
     DemoAppearance appearance() const override { return {.turbidity = 2.0}; }
 
-    std::vector<HudLine> hud() const override { return {{std::to_string(mFalls), true, "Falls"}}; }
+    std::vector<HudLine> hud() const override { // text, whether it is emphasised, label
+        return {{std::to_string(mFalls), true, "Falls"}};
+    }
 
     bool isOver() const override { return seconds() > 30.0; }
 
     int score() const override { return mFalls; }
 
   protected:
-    void simulate(const DemoControls& controls) override { // one step of kDemoStepSeconds
+    // One step of kDemoStepSeconds, 1/120 s. controls.turn and drive are -1 to 1, the others bool.
+    void simulate(const DemoControls& controls) override {
         auto& pose = world().registry.get<SimulatedPose>(mBall);
         math::dvec3& place = pose.transform.translation;
-        mSpeed -= kGravity * kDemoStepSeconds;
+        mSpeed -= kGravity * kDemoStepSeconds; // 9.81 m/s^2
         place += math::dvec3(controls.turn, mSpeed, 0.0) * kDemoStepSeconds;
         pose.jumped = place.y < 0.0; // put elsewhere, not moved there: nothing blurs in between
         if (pose.jumped) {
@@ -51,8 +54,9 @@ class FallDemo final : public DemoBase {
 
   private:
     FallDemo(scene::World loaded, ecs::Entity ball)
-        : DemoBase(std::move(loaded), ball), mBall(ball) {
-        (void)game::simulate(world(), ball); // gives it a SimulatedPose, where it is at rest
+        : DemoBase(std::move(loaded), ball), // ball: what E takes out of the blur
+          mBall(ball) {
+        (void)game::simulate(world(), ball); // of stage.h: gives it a SimulatedPose, at rest
         recordStart();                       // once all is in its place
     }
 
