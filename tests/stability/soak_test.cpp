@@ -272,8 +272,9 @@ class StormStage : public game::Stage {
     std::vector<ecs::Entity> mSpawned;
 };
 
-/// Six cycles (listGrowth()). Not a whole number: the last sample is taken before the end.
-constexpr uint32_t kShortestSoak = 6 * kCycleFrames + 10;
+/// Nine cycles (listGrowth()): pipelines are made when first needed, the last of them in the sixth,
+/// after which memory stays. Not a whole number: the last sample is taken before the end.
+constexpr uint32_t kShortestSoak = 9 * kCycleFrames + 10;
 /// The other run is for its pictures alone.
 constexpr uint32_t kShortestRepetition = kCycleFrames;
 constexpr game::PictureSize kSize{64, 36};
