@@ -101,8 +101,8 @@ struct Guesses {
     Guess last;
 };
 
-/// Whether other layers are searched for what a lens sees beyond the border. The general search of
-/// `adaptive` has no register left for that on GPUs.
+/// Whether other layers are searched for what a lens sees beyond the border. The passes of `adaptive`, which
+/// search in general, have no register left for that on GPUs (tests/gpu_static); rays go there first.
 bool searchesBeyond() { return kHasLens && !(kFindsEdges && kIsGeneral); }
 
 /// Whether withinBorder() moves a place.
