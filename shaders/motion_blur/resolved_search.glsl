@@ -440,7 +440,7 @@ Guesses beginGuesses(PixelSearch pixel) {
     );
 }
 
-/// Whether it may be the picture's border in place of what a lens sees beyond it (withinBorder()).
+/// Whether a place may be the picture's border in place of what a lens sees beyond it (withinBorder()).
 bool isAtBorder(vec2 at) {
     return any(lessThanEqual(at, vec2(0.5f))) || any(greaterThanEqual(at, vec2(params.sizePx) - 0.5f));
 }
@@ -459,8 +459,8 @@ Seen searchInTurn(
     LayerMotion motion = pixel.raster;
     Guess guess = guesses.raster;
     uint layer = kRasterLayer;
-    bool isBorder = false; // this frame's raster has it if its border is taken, in a second search
-    bool takesBorder = false;
+    bool isBorder = false;    // this frame's raster has only its border for the sample
+    bool takesBorder = false; // it is searched again: no other layer has the sample
     [[dont_unroll]] while (true) {
         searchLayer(layer, motion, pixel, instant, slots, guess, seen, doubt);
         if (layer == kRasterLayer) guesses.raster = guess;

@@ -62,7 +62,7 @@ class Blur : public Cli {
         return join(join({"blur"}, files), join(kOnSoftware, more));
     }
 
-    /// Of frame 1 of s_%d.exr.
+    /// Blurs frame 1 of s_%d.exr.
     [[nodiscard]] static Arguments blurOne(const Arguments& more) {
         return blur({"s_1.exr", "s_1.motion.exr", "s_1.depth.exr"}, more);
     }

@@ -335,11 +335,18 @@ TEST_F(LensLaw, BeyondTheBorderAMovingCameraSeesWhatTheLastFrameShowed) {
                     sum += std::abs(picture.at(x, y, 1) - many.at(x, y, 1));
             return sum / (8.0 * (kHigh - 32));
         };
-        shot.method = "resolved";
-        const image::Image picture = stage.render(shot).color;
-        const double middle = measureError(picture, kWide / 2);
-        for (const uint32_t first : {0u, kWide - 8})
-            EXPECT_LE(measureError(picture, first), 3.0 * middle) << speed << " " << first;
+        // adaptive searches in another order, and has too few rays here for the border.
+        shot.settings.raysPerPixel = 0.01f;
+        for (const char* method : {"resolved", "adaptive"}) {
+            shot.method = method;
+            if (shot.method == "adaptive" && !device().hasRayQuery())
+                continue;
+            const image::Image picture = stage.render(shot).color;
+            const double middle = measureError(picture, kWide / 2);
+            for (const uint32_t first : {0u, kWide - 8})
+                EXPECT_LE(measureError(picture, first), 3.0 * middle)
+                    << method << " " << speed << " " << first;
+        }
     }
 }
 

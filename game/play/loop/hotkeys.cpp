@@ -23,7 +23,7 @@ constexpr std::array kPresetKeys = {
 /// Of listEffectSwitches().
 constexpr std::array kEffectKeys = {
     Key::Digit6, Key::Digit7, Key::Digit8, Key::Digit9, Key::Digit0};
-/// Of the player's own cameras.
+/// They move the player's own cameras.
 constexpr std::array kFlyKeys = {Key::W, Key::A, Key::S, Key::D, Key::Q, Key::E};
 
 /// The picture itself comes before the first and after the last view.
